@@ -1,0 +1,55 @@
+// Where frames go: a film, a folder of PNGs, or several of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/image.h"
+
+namespace carom {
+
+/// CPU seconds by stage, summed over all threads that work for the sink.
+struct SinkTimes {
+    double convert_cpu_s = 0;
+    double encode_cpu_s = 0;
+    double write_cpu_s = 0;
+};
+
+class FrameSink {
+  public:
+    virtual ~FrameSink() = default;
+    /// Frames arrive in order; `number` is absolute.
+    virtual void write(std::int64_t number, const Image& frame) = 0;
+    /// Makes the output appear under its name; must be called, so that closing can fail out loud.
+    virtual void finish() = 0;
+    /// After an interrupt: keeps what is playable (a film as OUT.partial.EXT) and returns its path,
+    /// or "" when nothing was worth keeping.
+    virtual std::string keep_partial() = 0;
+    virtual SinkTimes times() const = 0;
+};
+
+struct FilmOptions {
+    int width_px = 1280;
+    int height_px = 720;
+    int fps_numerator = 60;
+    int fps_denominator = 1;
+    int crf = 18;
+    std::string preset = "veryfast";  ///< of x264
+    int threads = 0;                  ///< of the encoder; 0: as many as there are processors
+    std::string title;                ///< metadata, empty for none
+};
+
+/// H.264 in MP4 (moov first) or Matroska, by the extension of `path`: yuv420p, BT.709 converted and
+/// tagged, High profile, constant rate with pts = frame index.
+/// Throws Failure(kRun) when libx264 is missing.
+std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options);
+
+/// One PNG per frame; `pattern` holds %05d (or %d, %0Nd), or names a folder, which is made if need
+/// be and gets frame_%05d.png.
+std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern);
+
+/// The path of one frame of a PNG sequence.
+std::string sequence_path(const std::string& pattern, std::int64_t number);
+
+}  // namespace carom

@@ -1,0 +1,95 @@
+#include "motion/motion.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+
+#include "core/check.h"
+
+namespace carom {
+
+namespace {
+
+/// exp(v) as a quaternion: a turn by |v| rad about v.
+Quat rotation(const Vec3& v) {
+    const double angle = v.norm();
+    if (angle == 0) return Quat::Identity();
+    return Quat(Eigen::AngleAxisd(angle, v / angle));
+}
+
+}  // namespace
+
+BallState Piece::at(double t) const {
+    const double s = t - start;
+    BallState state;
+    state.position = position + s * (velocity + (0.5 * s) * acceleration);
+    state.velocity = velocity + s * acceleration;
+    state.spin = spin + s * spin_rate;
+    const Vec3 turned = s * (spin + (0.5 * s) * spin_rate);
+    state.orientation = turned.isZero(0) ? orientation : (rotation(turned) * orientation).normalized();
+    return state;
+}
+
+const char* event_kind_name(EventKind kind) {
+    switch (kind) {
+        case EventKind::kImpact: return "impact";
+        case EventKind::kSlide: return "slide";
+        case EventKind::kRoll: return "roll";
+        case EventKind::kRest: return "rest";
+        case EventKind::kLeave: return "leave";
+    }
+    return "";
+}
+
+void Trajectory::append(const Piece& piece) {
+    if (!pieces_.empty()) {
+        CAROM_CHECK(piece.start, >=, pieces_.back().start);
+        if (piece.start == pieces_.back().start) pieces_.pop_back();
+    }
+    pieces_.push_back(piece);
+}
+
+std::size_t Trajectory::piece_index(double t) const {
+    CAROM_CHECK(pieces_.size(), >, 0u);
+    const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), t,
+                                        [](double time, const Piece& p) { return time < p.start; });
+    return after == pieces_.begin() ? 0 : static_cast<std::size_t>(after - pieces_.begin()) - 1;
+}
+
+BallState Trajectory::at(double t) const { return pieces_[piece_index(t)].at(t); }
+
+std::uint64_t Motion::hash() const {
+    XXH3_state_t* state = XXH3_createState();
+    XXH3_64bits_reset(state);
+    const auto add = [state](double value) {
+        const double plain = value == 0 ? 0.0 : value;  // -0 and 0 are one value
+        XXH3_64bits_update(state, &plain, sizeof plain);
+    };
+    const auto add_vector = [&add](const Vec3& v) {
+        for (int i = 0; i < 3; ++i) add(v[i]);
+    };
+
+    add(duration);
+    for (const Trajectory& ball : balls) {
+        add(static_cast<double>(ball.pieces().size()));
+        for (const Piece& p : ball.pieces()) {
+            add(p.start);
+            for (const Vec3& v : {p.position, p.velocity, p.acceleration, p.spin, p.spin_rate})
+                add_vector(v);
+            for (int i = 0; i < 4; ++i) add(p.orientation.coeffs()[i]);
+        }
+    }
+    for (const Event& e : events) {
+        for (double v : {e.time, double(e.ball), double(e.other.is_surface), double(e.other.index),
+                         double(e.kind), e.approach_speed, e.separation_speed, e.restitution,
+                         e.impulse, e.tangential_impulse})
+            add(v);
+        add_vector(e.point);
+        add_vector(e.normal);
+    }
+    const std::uint64_t result = XXH3_64bits_digest(state);
+    XXH3_freeState(state);
+    return result;
+}
+
+}  // namespace carom

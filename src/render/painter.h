@@ -1,0 +1,51 @@
+// Draws the motion of a scene at any instant: Motion at t -> Image. Needs no display.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/image.h"
+#include "motion/motion.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+struct PainterOptions {
+    int width_px = 1280;
+    int height_px = 720;
+};
+
+/// Owns one offscreen context; use it from the thread that made it. `scene` and `motion` must
+/// outlive it. Everything that can fail (context, shaders, framebuffer, fonts) fails in the
+/// constructor with Failure(kRun) and the library's own text; a frame is never silently blank.
+class Painter {
+  public:
+    Painter(const Scene& scene, const Motion& motion, const PainterOptions& options);
+    ~Painter();
+    Painter(Painter&&) noexcept;
+    Painter& operator=(Painter&&) noexcept;
+
+    /// Draws the instant `t` [s of the motion] into `out`, which is resized if need be.
+    void paint(double t, Image& out);
+
+    /// Renderer and version strings of the driver, for --stats and for failed goldens.
+    std::string renderer() const;
+
+    /// What is drawn and why, for --stats: shadows, markings, ruler, clock, labels, trail, ...
+    struct DrawnEffect {
+        bool on = false;
+        std::string why;
+    };
+    std::map<std::string, DrawnEffect> effects() const;
+
+    /// CPU seconds of the calling thread since construction, for --stats.
+    double draw_cpu_s() const;
+    double read_cpu_s() const;
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace carom

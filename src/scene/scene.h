@@ -1,0 +1,190 @@
+// A scene as plain values: what the YAML file says, validated, with every default filled in.
+// SI units, z up, right-handed. Keys and defaults are described in docs/scene.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/types.h"
+
+namespace carom {
+
+/// The paper's virtual body: its surface lies `distance_m` below the real one and moves towards the
+/// contact at `velocity_m_s` (Khurelbaatar et al. 2012, section 5). A distance of infinity stands
+/// for a material that never rebounds (`restitution: 0`); a distance of 0 loses nothing.
+struct VirtualBody {
+    double distance_m = 0;
+    double velocity_m_s = 1;
+};
+
+struct Material {
+    std::string name;                 ///< "" is the default material, always at index 0
+    VirtualBody virtual_body;         ///< `restitution: e` is stored as x/v = -2 ln e / K, v = 1
+    std::optional<double> friction;   ///< Coulomb's mu against a reference of 1; none if not named
+    SourceMark mark;
+};
+
+/// Overrides the pair rule for two materials (indices into Scene::materials).
+struct PairRule {
+    std::array<int, 2> between{};
+    std::optional<double> restitution;
+    std::optional<double> friction;
+    SourceMark mark;
+};
+
+/// Linear pictures have linear colours; the scene has sRGB ones, each channel 0 ... 1.
+struct Color {
+    double r = 0.8, g = 0.8, b = 0.8;
+};
+
+/// Markings of balls, and patterns of surfaces. docs/scene.md says what each looks like.
+enum class LookStyle {
+    kPlain,
+    kStriped,
+    kBasketball,
+    kVolleyball,
+    kFootball,
+    kTennis,
+    kTableTennis,
+    kChecker,
+    kGrid,
+};
+
+struct Look {
+    std::string name;                    ///< "" for a default
+    LookStyle style = LookStyle::kPlain;
+    Color color;                         ///< the main colour
+    Color second_color;                  ///< stripes, seams, the checker's other squares, lines
+    double tile_m = 0.5;                 ///< edge of a square of checker and grid, m
+};
+
+struct PlaneShape {
+    Vec3 normal = Vec3::UnitZ();  ///< unit
+    double offset_m = 0;          ///< points p with normal . p = offset
+};
+struct BoxShape {
+    Vec3 center = Vec3::Zero();
+    Vec3 size = Vec3::Ones();              ///< full edges, m
+    Quat orientation = Quat::Identity();   ///< world from box
+};
+struct SphereShape {
+    Vec3 center = Vec3::Zero();
+    double radius = 1;
+};
+struct CapsuleShape {
+    Vec3 from = Vec3::Zero();
+    Vec3 to = Vec3::UnitX();
+    double radius = 0.1;
+};
+using SurfaceShape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape>;
+
+/// A static body.
+struct Surface {
+    std::string name;
+    SurfaceShape shape;
+    int material = 0;  ///< index into Scene::materials
+    int look = 0;      ///< index into Scene::looks
+    SourceMark mark;
+};
+
+struct Ball {
+    std::string name;
+    double radius = 0.1;           ///< m
+    double mass = 1;               ///< kg
+    double inertia_factor = 0.4;   ///< k of I = k m r^2: 2/5 solid, 2/3 thin shell
+    int material = 0;
+    int look = 0;
+    Vec3 position = Vec3::Zero();  ///< of the centre, m
+    Vec3 velocity = Vec3::Zero();  ///< m/s
+    Vec3 spin = Vec3::Zero();      ///< angular velocity, world axes, rad/s
+    std::string preset;            ///< "" or the catalogue's name
+    SourceMark mark;
+};
+
+enum class Method { kFixed, kExact };
+enum class Solver { kWorld, kQuick };
+
+struct Simulation {
+    /// s; empty: until everything rests, at most max_duration.
+    std::optional<double> duration = 10.0;
+    double max_duration = 600;              ///< s
+    Vec3 gravity = Vec3(0, 0, -9.81);       ///< m/s^2
+    double restitution_constant = 4.0;      ///< K of Eq. 7, 1/s
+    Method method = Method::kFixed;
+    double step = 0.00025;                  ///< s, method fixed only
+    Solver solver = Solver::kWorld;
+    int iterations = 20;                    ///< solver quick only
+};
+
+struct Camera {
+    Vec3 from = Vec3(0, -6, 1.5);
+    Vec3 to = Vec3(0, 0, 1);
+    Vec3 up = Vec3::UnitZ();
+    double fov_deg = 40;  ///< vertical
+};
+
+/// Frames per second as a fraction, so that 30000/1001 is exact.
+struct FrameRate {
+    int numerator = 60;
+    int denominator = 1;
+    double per_second() const { return static_cast<double>(numerator) / denominator; }
+};
+
+struct Film {
+    int width_px = 1280;
+    int height_px = 720;
+    FrameRate fps;
+    double start = 0;              ///< s of the motion that frame 0 shows
+    double speed = 1;              ///< seconds of motion per second of film
+    std::vector<double> stills;    ///< s of the motion
+};
+
+enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
+
+/// A vertical scale in metres. Its foot stands at (x, y, from); chosen beside the motion if empty.
+struct RulerOptions {
+    std::optional<Vec2> at;
+    double from = 0;             ///< m
+    std::optional<double> to;    ///< m; default: the next metre or half metre above the motion
+};
+struct ClockOptions {
+    Corner corner = Corner::kTopLeft;
+    int digits = 2;  ///< after the decimal point
+};
+struct TrailOptions {
+    double seconds = std::numeric_limits<double>::infinity();  ///< how far back it reaches
+    double width_px = 2.0;                                     ///< at a height of 720 pixels
+};
+struct LabelOptions {
+    double size_px = 15;  ///< of the letters, at a height of 720 pixels
+};
+
+/// What is written over the picture; empty means not drawn, and costs nothing.
+struct Overlay {
+    std::optional<RulerOptions> ruler;
+    std::optional<ClockOptions> clock;
+    std::optional<TrailOptions> trail;
+    std::optional<LabelOptions> labels;
+};
+
+struct Scene {
+    std::string file;   ///< as the user named it, for messages
+    std::string title;
+    Simulation simulation;
+    std::vector<Material> materials;  ///< [0] is the default: restitution 1, no friction
+    std::vector<PairRule> pairs;
+    std::vector<Look> looks;
+    std::vector<Surface> surfaces;
+    std::vector<Ball> balls;          ///< `repeat` is unrolled, in the scene's order
+    std::optional<Camera> camera;     ///< empty: framed around the motion
+    Film film;
+    Overlay overlay;
+};
+
+}  // namespace carom
