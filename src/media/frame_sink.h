@@ -9,7 +9,8 @@
 
 namespace carom {
 
-/// CPU seconds by stage, summed over all threads that work for the sink.
+/// CPU seconds by stage, summed over all threads that work for the sink, x264's own included (found
+/// by their name, see media/thread_clock.h; without /proc they are missing).
 struct SinkTimes {
     double convert_cpu_s = 0;
     double encode_cpu_s = 0;
@@ -21,6 +22,10 @@ class FrameSink {
     virtual ~FrameSink() = default;
     /// Frames arrive in order; `number` is absolute.
     virtual void write(std::int64_t number, const Image& frame) = 0;
+    /// The same for a caller that needs the pixels no more: a sink that keeps frames for another
+    /// thread swaps `frame` for a used one instead of copying it. Afterwards the frame has the same
+    /// size, and its pixels mean nothing.
+    virtual void write_swapped(std::int64_t number, Image& frame) { write(number, frame); }
     /// Makes the output appear under its name; must be called, so that closing can fail out loud.
     virtual void finish() = 0;
     /// After an interrupt: keeps what is playable (a film as OUT.partial.EXT) and returns its path,
@@ -34,7 +39,7 @@ struct FilmOptions {
     int height_px = 720;
     int fps_numerator = 60;
     int fps_denominator = 1;
-    int crf = 18;
+    int crf = 18;                     ///< 1 (best) ... 51 (smallest)
     std::string preset = "veryfast";  ///< of x264
     int threads = 0;                  ///< of the encoder; 0: as many as there are processors
     std::string title;                ///< metadata, empty for none
@@ -46,10 +51,14 @@ struct FilmOptions {
 std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options);
 
 /// One PNG per frame; `pattern` holds %05d (or %d, %0Nd), or names a folder, which is made if need
-/// be and gets frame_%05d.png.
-std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern);
+/// be and gets frame_%05d.png. "%%" stands for a percent sign. `threads` encode beside the caller
+/// (0: one per processor, at most 8); each keeps two frames in memory. A frame appears under its
+/// name only when whole; keep_partial() keeps all that are, and returns the folder.
+/// Throws Failure(kInput) for a pattern that is none, Failure(kOutput) for a folder that cannot be
+/// made.
+std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern, int threads = 0);
 
-/// The path of one frame of a PNG sequence.
+/// The path of one frame of a PNG sequence. Throws Failure(kInput) as make_png_sequence() does.
 std::string sequence_path(const std::string& pattern, std::int64_t number);
 
 }  // namespace carom

@@ -6,10 +6,20 @@
 namespace carom {
 
 /// Throws Failure(kOutput) if `path` exists and `overwrite` is false, if its folder does not exist
-/// or cannot be written, or if it is a folder. Call it before the work, not after.
+/// or cannot be written, or if it is a folder. Devices and pipes (/dev/stdout) are always allowed.
+/// Call it before the work, not after.
 void require_writable(const std::string& path, bool overwrite);
 
-/// A temporary name beside `path`; commit() renames it to `path`, the destructor removes it.
+/// Whether the bytes must have reached the disk before the name appears.
+enum class Durability {
+    kSynced,    ///< fsync first: an empty file never stands under the name, even after a power cut
+    kUnsynced,  ///< for thousands of small files, where waiting for the disk each time is too slow
+};
+
+/// A temporary name beside `path` (".NAME.tmpPID.EXT", created empty by the constructor, so that
+/// the extension still tells the format); commit() renames it to `path`, the destructor removes it.
+/// A symbolic link is followed: its target is replaced, the link stays. A device or pipe is written
+/// in place. Failures are Failure(kOutput) with the path and the system's text.
 class OutputFile {
   public:
     explicit OutputFile(std::string path);
@@ -19,18 +29,25 @@ class OutputFile {
 
     const std::string& path() const { return path_; }
     const std::string& temporary_path() const { return temporary_path_; }
-    void commit();                            ///< rename to path(), fails with Failure(kOutput)
-    void commit_as(const std::string& path);  ///< the same under another name
+    /// Renames to path(). At most one of the two commits may be called, once.
+    void commit(Durability durability = Durability::kSynced);
+    void commit_as(const std::string& path);  ///< the same under another name in the same folder
 
   private:
-    std::string path_;
-    std::string temporary_path_;
+    void publish(const std::string& target, Durability durability);
+    void discard() noexcept;
+
+    std::string path_;            ///< as the user named it
+    std::string target_path_;     ///< where the links lead
+    std::string temporary_path_;  ///< empty: nothing to remove any more
+    bool in_place_ = false;       ///< the target is a device or a pipe
 };
 
 /// OUT.partial.EXT for OUT.EXT.
 std::string partial_path(const std::string& path);
 
 /// Writes all of `text` to `path` through an OutputFile.
-void write_text_file(const std::string& path, const std::string& text);
+void write_text_file(const std::string& path, const std::string& text,
+                     Durability durability = Durability::kSynced);
 
 }  // namespace carom

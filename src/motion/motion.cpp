@@ -25,18 +25,25 @@ BallState Piece::at(double t) const {
     state.position = position + s * (velocity + (0.5 * s) * acceleration);
     state.velocity = velocity + s * acceleration;
     state.spin = spin + s * spin_rate;
-    const Vec3 turned = s * (spin + (0.5 * s) * spin_rate);
-    state.orientation = turned.isZero(0) ? orientation : (rotation(turned) * orientation).normalized();
+    const Vec3 turned =
+        s * (spin + (0.5 * s) * spin_rate) - (s * s * s / 12) * spin.cross(spin_rate);
+    state.orientation =
+        turned.isZero(0) ? orientation : (rotation(turned) * orientation).normalized();
     return state;
 }
 
 const char* event_kind_name(EventKind kind) {
     switch (kind) {
-        case EventKind::kImpact: return "impact";
-        case EventKind::kSlide: return "slide";
-        case EventKind::kRoll: return "roll";
-        case EventKind::kRest: return "rest";
-        case EventKind::kLeave: return "leave";
+        case EventKind::kImpact:
+            return "impact";
+        case EventKind::kSlide:
+            return "slide";
+        case EventKind::kRoll:
+            return "roll";
+        case EventKind::kRest:
+            return "rest";
+        case EventKind::kLeave:
+            return "leave";
     }
     return "";
 }

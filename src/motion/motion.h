@@ -22,9 +22,13 @@ struct BallState {
 /// A polynomial piece: from `start` to the next piece's start, with s = t - start,
 ///   position    p + v s + a s^2 / 2
 ///   spin        w + b s
-///   orientation exp(w s + b s^2 / 2) q      (exact where b is parallel to w, or one of them is 0)
+///   orientation exp(w s + b s^2 / 2 - w x b s^3 / 12) q
+/// The last is exact where b is parallel to w or one of them is 0, otherwise the fourth-order
+/// Magnus series of q' = spin q / 2, good for s so short that |w|^2 |w x b| s^5 / 720 is (Blanes,
+/// Casas, Oteo, Ros, "The Magnus expansion and some of its applications", Physics Reports 470,
+/// 2009).
 struct Piece {
-    double start = 0;               ///< s
+    double start = 0;  ///< s
     Vec3 position = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 acceleration = Vec3::Zero();
@@ -32,7 +36,7 @@ struct Piece {
     Vec3 spin = Vec3::Zero();
     Vec3 spin_rate = Vec3::Zero();
 
-    BallState at(double t) const;   ///< t in seconds of the motion, not since start
+    BallState at(double t) const;  ///< t in seconds of the motion, not since start
 };
 
 enum class EventKind { kImpact, kSlide, kRoll, kRest, kLeave };
@@ -51,13 +55,13 @@ struct Event {
     int ball = -1;
     Partner other;
     EventKind kind = EventKind::kImpact;
-    Vec3 point = Vec3::Zero();          ///< contact point, m
-    Vec3 normal = Vec3::UnitZ();        ///< unit, towards `ball`
-    double approach_speed = 0;          ///< m/s along the normal, >= 0; impacts only, as are all below
-    double separation_speed = 0;        ///< m/s
-    double restitution = 0;             ///< of the pair, as computed
-    double impulse = 0;                 ///< N s along the normal
-    double tangential_impulse = 0;      ///< N s
+    Vec3 point = Vec3::Zero();      ///< contact point, m
+    Vec3 normal = Vec3::UnitZ();    ///< unit, towards `ball`
+    double approach_speed = 0;      ///< m/s along the normal, >= 0; impacts only, as are all below
+    double separation_speed = 0;    ///< m/s
+    double restitution = 0;         ///< of the pair, as computed
+    double impulse = 0;             ///< N s along the normal
+    double tangential_impulse = 0;  ///< N s
 };
 
 /// A top of the gap under a ball between two impacts.
@@ -81,12 +85,12 @@ class Trajectory {
 };
 
 struct Motion {
-    double duration = 0;                       ///< s
+    double duration = 0;  ///< s
     std::vector<std::string> ball_names;
     std::vector<std::string> surface_names;
-    std::vector<Trajectory> balls;             ///< in the scene's order
-    std::vector<Event> events;                 ///< in order of time
-    std::vector<std::vector<Peak>> peaks;      ///< per ball, in order of time
+    std::vector<Trajectory> balls;         ///< in the scene's order
+    std::vector<Event> events;             ///< in order of time
+    std::vector<std::vector<Peak>> peaks;  ///< per ball, in order of time
 
     /// Fingerprint of all pieces and events: equal for equal motions, whatever the film rate.
     std::uint64_t hash() const;

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# What scripts/test.sh leaves out because it takes long or needs large packages: the Debug build, the
+# thread sanitizer, the film in a browser, format and lint.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh --group film --group test --group long \
+    --preset dev --preset tsan --preset release-tests
+
+echo "test_long: format"
+git ls-files 'src/*.cpp' 'src/*.h' 'tests/*.cpp' 'bench/*.cpp' | xargs clang-format --dry-run --Werror
+echo "test_long: lint"
+git ls-files 'src/*.cpp' | xargs -P "$(nproc)" -n 4 clang-tidy --quiet -p build/dev
+
+for preset in dev tsan; do
+    echo "test_long: preset $preset"
+    ctest --preset "$preset" -j "$(nproc)"
+done
+
+echo "test_long: film in a browser"
+build/release-tests/carom render scenes/figure9.yaml -o out/figure9.mp4 -y
+python3 -B tests/browser/play_film.py out/figure9.mp4

@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Draws the golden pictures of every scene again, where they differ. Look at them before committing.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/setup.sh --group film --preset release
+find scenes -name '*.yaml' | sort | xargs build/release/carom golden update --dir tests/golden --size 320x180

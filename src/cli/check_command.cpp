@@ -1,0 +1,104 @@
+// carom check, carom schema, carom info: what needs neither simulation nor picture.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/exit_codes.h"
+#include "cli/options.h"
+#include "cli/standard_output.h"
+#include "cli/stats.h"
+#include "scene/schema.h"
+
+namespace carom {
+
+namespace {
+
+struct CheckOptions {
+    std::vector<std::string> scenes;
+    bool json = false;
+    CommonOptions common;
+};
+
+nlohmann::ordered_json diagnostic_json(const Diagnostic& d) {
+    return {{"file", d.file},
+            {"line", d.mark.line},
+            {"column", d.mark.column},
+            {"severity", d.severity == Severity::kError ? "error" : "warning"},
+            {"message", d.message}};
+}
+
+int check(const CheckOptions& options) {
+    bool valid = true;
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const std::string& path : options.scenes) {
+        const SceneResult result = read_scene_file(path, options.common.overrides());
+        valid = valid && result.scene.has_value();
+        nlohmann::ordered_json found = nlohmann::ordered_json::array();
+        for (const Diagnostic& d : result.diagnostics.items()) {
+            if (options.json)
+                found.push_back(diagnostic_json(d));
+            else if (!options.common.quiet || d.severity == Severity::kError)
+                fmt::print(stderr, "{}\n", d.text());
+        }
+        json.push_back({{"file", path},
+                        {"valid", result.scene.has_value()},
+                        {"diagnostics", std::move(found)}});
+        if (!options.json && !options.common.quiet && result.scene)
+            write_standard_output(fmt::format("{}: valid, {} balls, {} surfaces\n", path,
+                                              result.scene->balls.size(),
+                                              result.scene->surfaces.size()));
+    }
+    if (options.json) write_standard_output(json.dump(2) + "\n");
+    return valid ? kExitDone : kExitInvalidScene;
+}
+
+int print_info(bool json) {
+    nlohmann::ordered_json object = nlohmann::ordered_json::object();
+    for (const auto& [name, version] : library_versions()) {
+        if (json)
+            object[name] = version;
+        else
+            write_standard_output(fmt::format("{:<12} {}\n", name, version));
+    }
+    if (json) write_standard_output(object.dump(2) + "\n");
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Run& run) {
+    auto* command = app.add_subcommand("check", "Validate scenes, print every mistake");
+    auto options = std::make_shared<CheckOptions>();
+    command->add_option("scenes", options->scenes, "Scene files, - for standard input")
+        ->required()
+        ->type_name("SCENE...");
+    command->add_flag("--json", options->json, "Diagnostics as JSON on standard output");
+    add_scene_options(*command, options->common);
+    command->add_flag("-q,--quiet", options->common.quiet, "Errors only");
+    command->callback([options, &run] { run = [options] { return check(*options); }; });
+}
+
+void add_schema_command(CLI::App& app, Run& run) {
+    auto* command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
+    auto reference = std::make_shared<bool>(false);
+    command->add_flag("--reference", *reference,
+                      "Print the reference of docs/scene.md (Markdown) instead");
+    command->callback([reference, &run] {
+        run = [reference] {
+            write_standard_output(*reference ? scene_reference_markdown() : scene_json_schema());
+            return int{kExitDone};
+        };
+    });
+}
+
+void add_info_command(CLI::App& app, Run& run) {
+    auto* command = app.add_subcommand("info", "Print the versions of carom and its libraries");
+    auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "As JSON");
+    command->callback([json, &run] { run = [json] { return print_info(*json); }; });
+}
+
+}  // namespace carom

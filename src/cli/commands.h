@@ -1,0 +1,27 @@
+// One function per command: adds itself to the program and says how to run.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace carom {
+
+class Interrupt;
+
+/// Returns the exit code.
+using Run = std::function<int()>;
+
+/// Each adds its command to `app` and sets `run` when the command line names it.
+void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_check_command(CLI::App& app, Run& run);
+void add_compare_command(CLI::App& app, Run& run);
+void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_schema_command(CLI::App& app, Run& run);
+void add_info_command(CLI::App& app, Run& run);
+
+}  // namespace carom

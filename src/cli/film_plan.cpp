@@ -1,0 +1,117 @@
+#include "cli/film_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <string_view>
+
+#include "core/failure.h"
+
+namespace carom {
+
+namespace {
+
+/// A film of more frames than this is a mistake in duration, fps or speed.
+constexpr double kMostFrames = 1e9;
+constexpr std::int64_t kMostChunks = 1'000'000'000;
+
+[[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
+
+std::int64_t whole_number(std::string_view text, const std::string& option) {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < 0)
+        usage(fmt::format("{}: '{}' is no whole number", option, text));
+    return value;
+}
+
+std::int64_t from_environment(const char* name, const std::string& option) {
+    const char* text = std::getenv(name);
+    if (text == nullptr) usage(fmt::format("{}: the variable {} is not set", option, name));
+    return whole_number(text, option);
+}
+
+/// One "a", "a-b", "a-" or "a-b:step".
+void add_range(std::string_view part, std::int64_t count, const std::string& option,
+               std::vector<std::int64_t>& frames) {
+    std::int64_t step = 1;
+    if (const std::size_t colon = part.find(':'); colon != std::string_view::npos) {
+        step = whole_number(part.substr(colon + 1), option);
+        if (step < 1) usage(fmt::format("{}: a step must be at least 1", option));
+        part = part.substr(0, colon);
+    }
+    const std::size_t dash = part.find('-');
+    const std::int64_t first = whole_number(part.substr(0, dash), option);
+    std::int64_t last = first;
+    if (dash != std::string_view::npos)
+        last = dash + 1 == part.size() ? count - 1 : whole_number(part.substr(dash + 1), option);
+    if (first >= count || last >= count)
+        usage(fmt::format("{}: the film has frames 0 to {}", option, count - 1));
+    if (last < first) usage(fmt::format("{}: '{}' runs backwards", option, part));
+    for (std::int64_t k = first; k <= last; k += step) frames.push_back(k);
+}
+
+}  // namespace
+
+std::int64_t frame_count(const Film& film, double duration) {
+    const double seconds = (duration - film.start) / film.speed;
+    const double frames = std::ceil(seconds * film.fps.numerator / film.fps.denominator - 1e-9);
+    if (!(frames >= 1))
+        usage(fmt::format("the film is empty: it starts at {} s and the motion ends at {} s",
+                          film.start, duration));
+    if (frames > kMostFrames) usage(fmt::format("the film would have {:.3g} frames", frames));
+    return static_cast<std::int64_t>(frames);
+}
+
+double frame_time(const Film& film, std::int64_t frame) {
+    return film.start +
+           film.speed * (static_cast<double>(frame) * film.fps.denominator / film.fps.numerator);
+}
+
+std::vector<std::int64_t> all_frames(std::int64_t count) {
+    std::vector<std::int64_t> frames(static_cast<std::size_t>(count));
+    std::iota(frames.begin(), frames.end(), std::int64_t{0});
+    return frames;
+}
+
+std::vector<std::int64_t> parse_frames(const std::string& text, std::int64_t count) {
+    std::vector<std::int64_t> frames;
+    std::string_view rest = text;
+    for (bool more = true; more;) {
+        const std::size_t comma = rest.find(',');
+        more = comma != std::string_view::npos;
+        add_range(rest.substr(0, comma), count, "--frames " + text, frames);
+        if (more) rest = rest.substr(comma + 1);
+    }
+    std::sort(frames.begin(), frames.end());
+    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+    return frames;
+}
+
+std::vector<std::int64_t> parse_chunk(const std::string& text, std::int64_t count) {
+    const std::string option = "--chunk " + text;
+    std::int64_t i = 0, n = 0;
+    if (text == "auto") {
+        const std::int64_t first = from_environment("SLURM_ARRAY_TASK_MIN", option);
+        i = from_environment("SLURM_ARRAY_TASK_ID", option) - first + 1;
+        n = from_environment("SLURM_ARRAY_TASK_MAX", option) - first + 1;
+    } else {
+        const std::size_t slash = text.find('/');
+        if (slash == std::string::npos) usage(option + ": expected I/N, e.g. 1/4");
+        i = whole_number(std::string_view(text).substr(0, slash), option);
+        n = whole_number(std::string_view(text).substr(slash + 1), option);
+    }
+    if (i < 1 || i > n) usage(option + ": I must lie between 1 and N");
+    if (n > kMostChunks) usage(fmt::format("{}: at most {} chunks", option, kMostChunks));
+    // floor(k F / N) in whole numbers; taken apart so that k F cannot overflow.
+    const auto bound = [&](std::int64_t k) { return k * (count / n) + k * (count % n) / n; };
+    std::vector<std::int64_t> frames;
+    for (std::int64_t k = bound(i - 1); k < bound(i); ++k) frames.push_back(k);
+    return frames;
+}
+
+}  // namespace carom

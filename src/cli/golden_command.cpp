@@ -1,0 +1,151 @@
+// carom golden: stills of scenes against pictures kept in a folder.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/exit_codes.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/standard_output.h"
+#include "core/failure.h"
+#include "media/png.h"
+#include "render/painter.h"
+#include "sim/simulate.h"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GoldenOptions {
+    std::vector<std::string> scenes;
+    std::string folder;
+    std::string differences;  ///< folder for pictures of what differs; empty: none
+    std::vector<double> times;
+    CommonOptions common;
+};
+
+std::string golden_path(const GoldenOptions& options, const std::string& scene, double time) {
+    return (fs::path(options.folder) / fmt::format("{}-t{:.6f}.png", scene_stem(scene), time)).string();
+}
+
+/// One still against its golden; prints what was found.
+bool matches(const GoldenOptions& options, const std::string& path, const Image& drawn,
+             const std::string& renderer) {
+    if (!fs::exists(path)) {
+        write_standard_output(fmt::format("missing: {}\n", path));
+        return false;
+    }
+    const Image golden = read_png(path);
+    const ImageDifference d = compare_images(golden, drawn);
+    if (ImageTolerance{}.accepts(d)) {
+        if (!options.common.quiet) write_standard_output(fmt::format("same: {}\n", path));
+        return true;
+    }
+    std::string found = fmt::format("sizes differ ({}x{}, drawn {}x{})", golden.width_px,
+                                    golden.height_px, drawn.width_px, drawn.height_px);
+    if (d.same_size)
+        found = fmt::format("largest difference {} of 255, {:.3f} % of pixels differ", d.largest,
+                            100 * d.differing_fraction());
+    write_standard_output(fmt::format("different: {}: {}; drawn by {}\n", path, found, renderer));
+    if (!options.differences.empty()) {
+        fs::create_directories(options.differences);
+        const fs::path base = fs::path(options.differences) / fs::path(path).stem();
+        write_png(base.string() + ".drawn.png", drawn);
+        if (d.same_size) write_png(base.string() + ".diff.png", difference_image(golden, drawn));
+    }
+    return false;
+}
+
+/// Runs `use` on every wanted still of one scene. False when the scene is invalid.
+template <class Use>
+bool for_each_still(const GoldenOptions& options, const std::string& path,
+                    const Interrupt& interrupt, const Use& use) {
+    const std::optional<Scene> scene = load_scene(path, options.common);
+    if (!scene) return false;
+    const std::vector<double>& times = options.times.empty() ? scene->film.stills : options.times;
+    if (times.empty())
+        throw Failure(FailureKind::kInput,
+                      fmt::format("{}: no stills: name them with film.stills or --time", path));
+    const SimulationResult simulated = simulate(*scene, interrupt.token());
+    Painter painter(*scene, simulated.motion, {scene->film.width_px, scene->film.height_px});
+    Image picture;
+    for (const double time : times) {
+        if (!(time >= 0 && time <= simulated.motion.duration))
+            throw Failure(FailureKind::kInput, fmt::format("{}: no instant {} s: the motion ends at {} s",
+                                                           path, time, simulated.motion.duration));
+        painter.paint(time, picture);
+        use(golden_path(options, path, time), picture, painter.renderer());
+    }
+    return true;
+}
+
+int check(const GoldenOptions& options, const Interrupt& interrupt) {
+    bool valid = true, same = true;
+    for (const std::string& scene : options.scenes)
+        valid &= for_each_still(options, scene, interrupt,
+                                [&](const std::string& path, const Image& drawn,
+                                    const std::string& renderer) {
+                                    same &= matches(options, path, drawn, renderer);
+                                });
+    if (!valid) return kExitInvalidScene;
+    return same ? kExitDone : kExitDifferent;
+}
+
+int update(const GoldenOptions& options, const Interrupt& interrupt) {
+    std::error_code error;
+    fs::create_directories(options.folder, error);
+    if (error)
+        throw Failure(FailureKind::kOutput,
+                      fmt::format("making the folder {}: {}", options.folder, error.message()));
+    bool valid = true;
+    for (const std::string& scene : options.scenes)
+        valid &= for_each_still(
+            options, scene, interrupt,
+            [&](const std::string& path, const Image& drawn, const std::string&) {
+                // A golden that still holds stays as it is, so that its history shows real changes.
+                if (fs::exists(path) && ImageTolerance{}.accepts(compare_images(read_png(path), drawn)))
+                    return;
+                write_png(path, drawn, PngEffort::kSmall);
+                write_standard_output(fmt::format("written: {}\n", path));
+            });
+    return valid ? kExitDone : kExitInvalidScene;
+}
+
+}  // namespace
+
+void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
+    auto* command = app.add_subcommand("golden", "Compare stills with kept pictures, or keep them");
+    command->require_subcommand(1);
+    auto options = std::make_shared<GoldenOptions>();
+    const auto add = [&](const char* name, const char* what, auto function) {
+        auto* action = command->add_subcommand(name, what);
+        action->add_option("scenes", options->scenes, "Scene files")
+            ->required()
+            ->type_name("SCENE...");
+        action->add_option("--dir", options->folder, "Folder of the goldens")
+            ->required()
+            ->type_name("DIR");
+        action->add_option("--time", options->times, "Instants in seconds (default: film.stills)")
+            ->type_name("T")
+            ->take_all()
+            ->allow_extra_args(false);
+        add_scene_options(*action, options->common);
+        add_picture_options(*action, options->common);
+        action->add_flag("-q,--quiet", options->common.quiet, "Only what differs");
+        action->callback([options, function, &run, &interrupt] {
+            run = [options, function, &interrupt] { return function(*options, interrupt); };
+        });
+        return action;
+    };
+    add("check", "Fail (exit code 5) where a still differs from its golden", check)
+        ->add_option("--diffs", options->differences, "Folder for pictures of what differs")
+        ->type_name("DIR");
+    add("update", "Write goldens that are missing or differ", update);
+}
+
+}  // namespace carom

@@ -1,0 +1,71 @@
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+
+#include "core/failure.h"
+
+namespace carom {
+
+std::vector<Override> CommonOptions::overrides() const {
+    std::vector<Override> result;
+    for (const std::string& text : set) result.push_back(parse_override(text));
+    if (size) {
+        const std::size_t cross = size->find('x');
+        if (cross == std::string::npos)
+            throw Failure(FailureKind::kInput,
+                          fmt::format("--size {}: expected WIDTHxHEIGHT, e.g. 1280x720", *size));
+        result.push_back({"film.size", fmt::format("[{}, {}]", size->substr(0, cross),
+                                                   size->substr(cross + 1))});
+    }
+    if (fps) result.push_back({"film.fps", *fps});
+    return result;
+}
+
+void add_scene_options(CLI::App& command, CommonOptions& options) {
+    command
+        .add_option("--set", options.set,
+                    "Change the scene: PATH=VALUE, e.g. balls.a.mass=1 (repeatable)")
+        ->type_name("PATH=VALUE")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+void add_picture_options(CLI::App& command, CommonOptions& options) {
+    command.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH");
+}
+
+void add_output_options(CLI::App& command, CommonOptions& options) {
+    command.add_flag("-y,--overwrite", options.overwrite, "Replace files that exist");
+    command.add_option("--stats", options.stats_path, "Write times, counts and effects as JSON")
+        ->type_name("FILE");
+}
+
+void add_talk_options(CLI::App& command, CommonOptions& options) {
+    static const std::map<std::string, ProgressMode> kModes = {{"auto", ProgressMode::kAuto},
+                                                               {"bar", ProgressMode::kBar},
+                                                               {"plain", ProgressMode::kPlain},
+                                                               {"none", ProgressMode::kNone}};
+    command.add_option("--progress", options.progress, "auto, bar, plain or none")
+        ->transform(CLI::CheckedTransformer(kModes).description("MODE"));
+    command.add_flag("-q,--quiet", options.quiet, "Errors only");
+    command.add_flag("-v,--verbose", options.verbose, "Say more on standard error");
+}
+
+std::optional<Scene> load_scene(const std::string& path, const CommonOptions& options) {
+    SceneResult result = read_scene_file(path, options.overrides());
+    for (const Diagnostic& d : result.diagnostics.items()) {
+        if (options.quiet && d.severity == Severity::kWarning) continue;
+        fmt::print(stderr, "{}\n", d.text());
+    }
+    return std::move(result.scene);
+}
+
+std::string scene_stem(const std::string& path) {
+    return path == "-" ? "scene" : std::filesystem::path(path).stem().string();
+}
+
+}  // namespace carom

@@ -1,0 +1,44 @@
+// Options that several commands share, and how they reach the scene.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/progress.h"
+#include "scene/reader.h"
+
+namespace CLI {
+class App;
+}
+
+namespace carom {
+
+/// What the user asked for on the command line, besides the command's own options.
+struct CommonOptions {
+    std::vector<std::string> set;      ///< PATH=VALUE
+    std::optional<std::string> size;   ///< WxH
+    std::optional<std::string> fps;
+    bool overwrite = false;
+    std::string stats_path;            ///< empty: none
+    ProgressMode progress = ProgressMode::kAuto;
+    bool quiet = false;
+    bool verbose = false;
+
+    /// --set, --size and --fps as changes of the scene's document.
+    std::vector<Override> overrides() const;
+    ProgressMode progress_mode() const { return quiet ? ProgressMode::kNone : progress; }
+};
+
+void add_scene_options(CLI::App& command, CommonOptions& options);     ///< --set
+void add_picture_options(CLI::App& command, CommonOptions& options);   ///< --size
+void add_output_options(CLI::App& command, CommonOptions& options);    ///< -y, --stats
+void add_talk_options(CLI::App& command, CommonOptions& options);      ///< --progress, -q, -v
+
+/// Reads the scene and prints its diagnostics; empty when it is invalid (exit code 3).
+std::optional<Scene> load_scene(const std::string& path, const CommonOptions& options);
+
+/// The scene file's name without folder and extension; "scene" for standard input.
+std::string scene_stem(const std::string& path);
+
+}  // namespace carom

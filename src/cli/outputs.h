@@ -1,0 +1,39 @@
+// From `-o` names to the sinks that frames go to.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "media/frame_sink.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// How films are encoded; PNG frames are not touched by it.
+struct EncodingOptions {
+    std::string quality = "medium";  ///< draft | medium | high: sets crf and preset
+    int crf = -1;                    ///< -1: as the quality says
+    std::string preset;              ///< empty: as the quality says
+    int threads = 0;                 ///< 0: as many as there are processors
+};
+
+/// One `-o`.
+struct OutputRequest {
+    std::string path;    ///< "-" is standard output
+    std::string format;  ///< for "-" only: mp4, mkv or png
+
+    bool is_film() const;
+};
+
+/// Refuses what cannot be written before any work is done: unknown extensions, files that exist.
+/// `frames` are the ones that will be written (PNG sequences check each of them).
+void check_outputs(const std::vector<OutputRequest>& outputs,
+                   const std::vector<std::int64_t>& frames, bool overwrite);
+
+/// Opens a sink that works on a thread of its own.
+std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,
+                                       const EncodingOptions& encoding);
+
+}  // namespace carom

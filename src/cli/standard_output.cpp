@@ -1,0 +1,117 @@
+#include "cli/standard_output.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/thread_cpu.h"
+#include "core/failure.h"
+#include "media/png.h"
+#include "media/threaded_sink.h"
+
+namespace carom {
+
+void write_standard_output(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+        if (written >= 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+            continue;
+        }
+        if (errno == EINTR) continue;
+        if (errno == EPIPE) throw ReaderGone{};
+        throw Failure(FailureKind::kOutput,
+                      fmt::format("writing to standard output: {}", std::strerror(errno)));
+    }
+}
+
+namespace {
+
+class PngStream : public FrameSink {
+  public:
+    void write(std::int64_t, const Image& frame) override {
+        const double before = thread_cpu_s();
+        const std::string bytes = encode_png(frame);
+        const double encoded = thread_cpu_s();
+        write_standard_output(bytes);
+        times_.encode_cpu_s += encoded - before;
+        times_.write_cpu_s += thread_cpu_s() - encoded;
+    }
+    void finish() override {}
+    std::string keep_partial() override { return {}; }
+    SinkTimes times() const override { return times_; }
+
+  private:
+    SinkTimes times_;
+};
+
+/// A folder that goes with its content.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "carom-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Failure(FailureKind::kOutput,
+                          fmt::format("making a temporary folder {}: {}", name, std::strerror(errno)));
+        path_ = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+class FilmStream : public FrameSink {
+  public:
+    FilmStream(const std::string& format, const FilmOptions& options, int waiting_frames)
+        : film_path_((folder_.path() / ("film." + format)).string()),
+          film_(make_threaded_sink(make_film_writer(film_path_, options), waiting_frames)) {}
+
+    void write(std::int64_t number, const Image& frame) override { film_->write(number, frame); }
+    void finish() override {
+        film_->finish();
+        copy(film_path_);
+    }
+    std::string keep_partial() override {
+        const std::string partial = film_->keep_partial();
+        if (!partial.empty()) copy(partial);
+        return partial.empty() ? "" : "standard output";
+    }
+    SinkTimes times() const override { return film_->times(); }
+
+  private:
+    static void copy(const std::string& path) {
+        std::ifstream file(path, std::ios::binary);
+        std::string block(1 << 20, '\0');
+        while (file.read(block.data(), static_cast<std::streamsize>(block.size())),
+               file.gcount() > 0)
+            write_standard_output({block.data(), static_cast<std::size_t>(file.gcount())});
+        if (file.bad())
+            throw Failure(FailureKind::kOutput, fmt::format("reading {} back failed", path));
+    }
+
+    TemporaryFolder folder_;
+    std::string film_path_;
+    std::unique_ptr<FrameSink> film_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> make_png_stream() { return std::make_unique<PngStream>(); }
+
+std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
+                                            int waiting_frames) {
+    return std::make_unique<FilmStream>(format, options, waiting_frames);
+}
+
+}  // namespace carom

@@ -1,0 +1,26 @@
+// Data on standard output: text, PNG frames one after another, or a whole film.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "media/frame_sink.h"
+
+namespace carom {
+
+/// The reader of standard output has gone; main ends with exit code 0.
+struct ReaderGone {};
+
+/// Throws ReaderGone on a closed pipe, Failure(kOutput) on any other error.
+void write_standard_output(std::string_view bytes);
+
+/// Frames as PNGs, one after another.
+std::unique_ptr<FrameSink> make_png_stream();
+
+/// A film in `format` (mp4 or mkv). It is muxed into a temporary file and copied at the end, because
+/// the index of an MP4 stands first and is known last.
+std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
+                                            int waiting_frames);
+
+}  // namespace carom

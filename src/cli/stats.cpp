@@ -1,0 +1,83 @@
+#include "cli/stats.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "media/versions.h"
+#include "render/versions.h"
+#include "sim/versions.h"
+
+namespace carom {
+
+namespace {
+
+std::int64_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+nlohmann::ordered_json balls_json(const Motion& motion) {
+    nlohmann::ordered_json balls = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < motion.ball_names.size(); ++i) {
+        nlohmann::ordered_json peaks = nlohmann::ordered_json::array();
+        for (const Peak& peak : motion.peaks[i])
+            peaks.push_back({{"time", peak.time}, {"height", peak.height}});
+        balls[motion.ball_names[i]] = {{"peaks", std::move(peaks)}};
+    }
+    return balls;
+}
+
+}  // namespace
+
+void Stats::add_sink(const SinkTimes& times) {
+    sinks.convert_cpu_s += times.convert_cpu_s;
+    sinks.encode_cpu_s += times.encode_cpu_s;
+    sinks.write_cpu_s += times.write_cpu_s;
+}
+
+void Stats::add_painter(const Painter& painter) {
+    draw_cpu_s += painter.draw_cpu_s();
+    read_cpu_s += painter.read_cpu_s();
+    renderer = painter.renderer();
+    for (const auto& [name, effect] : painter.effects()) effects[name] = {effect.on, effect.why};
+}
+
+std::map<std::string, std::string> library_versions() {
+    std::map<std::string, std::string> versions = {{"carom", CAROM_VERSION}};
+    versions.merge(simulation_versions());
+    versions.merge(render_versions());
+    versions.merge(media_versions());
+    return versions;
+}
+
+std::string stats_json(const Stats& stats, const SimulationResult* result) {
+    using std::chrono::duration;
+    using std::chrono::steady_clock;
+    nlohmann::ordered_json json;
+    json["wall_s"] = duration<double>(steady_clock::now() - stats.start).count();
+    json["cpu_s"] = {{"scene", stats.scene_cpu_s},          {"sim", stats.sim_cpu_s},
+                     {"draw", stats.draw_cpu_s},            {"read", stats.read_cpu_s},
+                     {"convert", stats.sinks.convert_cpu_s}, {"encode", stats.sinks.encode_cpu_s},
+                     {"write", stats.sinks.write_cpu_s}};
+    json["frames"] = stats.frames;
+    json["steps"] = result != nullptr ? result->report.steps : 0;
+    json["impacts"] = result != nullptr ? result->report.impacts : 0;
+    std::map<std::string, Effect> effects = stats.effects;
+    if (result != nullptr) effects.insert(result->report.effects.begin(), result->report.effects.end());
+    json["effects"] = nlohmann::ordered_json::object();
+    for (const auto& [name, effect] : effects)
+        json["effects"][name] = {{"on", effect.on}, {"why", effect.why}};
+    json["renderer"] = stats.renderer;
+    json["versions"] = library_versions();
+    json["peak_rss_bytes"] = peak_rss_bytes();
+    if (result != nullptr) {
+        json["motion_hash"] = fmt::format("{:016x}", result->motion.hash());
+        json["balls"] = balls_json(result->motion);
+    }
+    return json.dump(2) + "\n";
+}
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+// What --stats writes: where the time went, what was modelled and drawn, and what came out.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "media/frame_sink.h"
+#include "render/painter.h"
+#include "sim/simulate.h"
+
+namespace carom {
+
+struct Stats {
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    double scene_cpu_s = 0;
+    double sim_cpu_s = 0;
+    double draw_cpu_s = 0;
+    double read_cpu_s = 0;
+    SinkTimes sinks;
+    std::int64_t frames = 0;
+    std::string renderer;
+    std::map<std::string, Effect> effects;  ///< of the simulation and of the picture
+
+    void add_sink(const SinkTimes& times);
+    void add_painter(const Painter& painter);
+};
+
+/// The JSON text; `result` is empty only when nothing was simulated.
+std::string stats_json(const Stats& stats, const SimulationResult* result);
+
+/// Versions of carom and its libraries, name -> version.
+std::map<std::string, std::string> library_versions();
+
+}  // namespace carom

@@ -1,0 +1,104 @@
+// carom still: one picture of one instant.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/exit_codes.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/standard_output.h"
+#include "cli/stats.h"
+#include "cli/thread_cpu.h"
+#include "core/failure.h"
+#include "media/output_file.h"
+#include "media/png.h"
+#include "render/painter.h"
+#include "sim/simulate.h"
+
+namespace carom {
+
+namespace {
+
+struct StillOptions {
+    std::string scene;
+    std::string output;
+    double time = 0;
+    CommonOptions common;
+};
+
+/// Refuses a name that is no PNG, and a file that may not be replaced.
+void check_output(const StillOptions& options) {
+    if (!options.common.stats_path.empty())
+        require_writable(options.common.stats_path, options.common.overwrite);
+    if (options.output == "-") return;
+    if (std::filesystem::path(options.output).extension() != ".png")
+        throw Failure(FailureKind::kInput,
+                      fmt::format("-o {}: a still is a .png file", options.output));
+    require_writable(options.output, options.common.overwrite);
+}
+
+int still(const StillOptions& options, const Interrupt& interrupt) {
+    Stats stats;
+    check_output(options);
+    std::optional<Scene> scene;
+    {
+        const CpuTimer timer(stats.scene_cpu_s);
+        scene = load_scene(options.scene, options.common);
+    }
+    if (!scene) return kExitInvalidScene;
+
+    SimulationResult simulated;
+    {
+        const CpuTimer timer(stats.sim_cpu_s);
+        simulated = simulate(*scene, interrupt.token());
+    }
+    const double duration = simulated.motion.duration;
+    if (!(options.time >= 0 && options.time <= duration))
+        throw Failure(FailureKind::kInput, fmt::format("--time {}: the motion lasts from 0 to {} s",
+                                                       options.time, duration));
+
+    Painter painter(*scene, simulated.motion, {scene->film.width_px, scene->film.height_px});
+    Image picture;
+    painter.paint(options.time, picture);
+    if (interrupt.requested()) return interrupt.exit_code();
+    {
+        const CpuTimer timer(stats.sinks.encode_cpu_s);
+        if (options.output == "-")
+            write_standard_output(encode_png(picture));
+        else
+            write_png(options.output, picture);
+    }
+    stats.frames = 1;
+    stats.add_painter(painter);
+    if (!options.common.stats_path.empty())
+        write_text_file(options.common.stats_path, stats_json(stats, &simulated));
+    return kExitDone;
+}
+
+}  // namespace
+
+void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
+    auto* command = app.add_subcommand("still", "Draw one instant of a scene as a PNG");
+    auto options = std::make_shared<StillOptions>();
+    command->add_option("scene", options->scene, "Scene file, - for standard input")
+        ->required()
+        ->type_name("SCENE");
+    command->add_option("--time", options->time, "Instant of the motion in seconds")
+        ->required()
+        ->type_name("T");
+    command->add_option("-o,--output", options->output, "picture.png, or - for standard output")
+        ->required()
+        ->type_name("OUT.png");
+    add_scene_options(*command, options->common);
+    add_picture_options(*command, options->common);
+    add_output_options(*command, options->common);
+    command->add_flag("-q,--quiet", options->common.quiet, "Errors only");
+    command->callback([options, &run, &interrupt] {
+        run = [options, &interrupt] { return still(*options, interrupt); };
+    });
+}
+
+}  // namespace carom

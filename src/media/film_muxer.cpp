@@ -1,0 +1,122 @@
+#include "media/film_muxer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace carom {
+
+namespace {
+
+const char* format_name(FilmContainer container) {
+    return container == FilmContainer::kMp4 ? "mp4" : "matroska";
+}
+
+/// Ticks a second of which a whole number makes one frame: a multiple of the numerator of the frame
+/// rate. Fine enough that players which round to ticks of their own lose nothing.
+int exact_time_scale(AVRational time_base) {
+    constexpr int kLeast = 10000;
+    int scale = time_base.den;
+    while (scale < kLeast) scale *= 2;
+    return scale;
+}
+
+/// FFmpeg's list of options, freed at the end.
+class Options {
+  public:
+    Options() = default;
+    ~Options() { av_dict_free(&dictionary_); }
+    Options(const Options&) = delete;
+    Options& operator=(const Options&) = delete;
+    void set(const char* key, const std::string& value) {
+        if (av_dict_set(&dictionary_, key, value.c_str(), 0) < 0) throw std::bad_alloc();
+    }
+    AVDictionary** get() { return &dictionary_; }
+
+  private:
+    AVDictionary* dictionary_ = nullptr;
+};
+
+}  // namespace
+
+FilmContainer film_container(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".mp4") return FilmContainer::kMp4;
+    if (extension == ".mkv") return FilmContainer::kMatroska;
+    throw Failure(FailureKind::kInput,
+                  fmt::format("cannot write a film '{}': its name must end in .mp4 or .mkv", path));
+}
+
+bool FilmMuxer::wants_global_header(FilmContainer container) {
+    const AVOutputFormat* format = av_guess_format(format_name(container), nullptr, nullptr);
+    return format != nullptr && (format->flags & AVFMT_GLOBALHEADER) != 0;
+}
+
+void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
+    avio_closep(&context->pb);
+    avformat_free_context(context);
+}
+
+FilmMuxer::FilmMuxer(const std::string& file, const std::string& path, FilmContainer container,
+                     const AVCodecContext& encoder, const std::string& title)
+    : path_(path), encoder_time_base_(encoder.time_base) {
+    const LibavMessages messages;
+    AVFormatContext* context = nullptr;
+    check(avformat_alloc_output_context2(&context, nullptr, format_name(container),
+                                         libav_url(file).c_str()),
+          "make a container for", messages);
+    context_.reset(context);
+    context->flags |= AVFMT_FLAG_BITEXACT;
+
+    AVStream* stream = allocated(avformat_new_stream(context, nullptr));
+    check(avcodec_parameters_from_context(stream->codecpar, &encoder), "describe the stream of",
+          messages);
+    stream->time_base = encoder.time_base;
+    stream->avg_frame_rate = encoder.framerate;
+    stream->r_frame_rate = encoder.framerate;
+    if (!title.empty() && av_dict_set(&context->metadata, "title", title.c_str(), 0) < 0)
+        throw std::bad_alloc();
+
+    check(avio_open(&context->pb, context->url, AVIO_FLAG_WRITE), "write", messages);
+    write_header(container);
+}
+
+void FilmMuxer::write_header(FilmContainer container) {
+    const LibavMessages messages;
+    Options options;
+    if (container == FilmContainer::kMp4) {
+        const std::string scale = std::to_string(exact_time_scale(encoder_time_base_));
+        options.set("movflags", "+faststart");
+        options.set("video_track_timescale", scale);
+        options.set("movie_timescale", scale);
+    }
+    check(avformat_write_header(context_.get(), options.get()), "write", messages);
+}
+
+FilmMuxer::~FilmMuxer() = default;
+
+void FilmMuxer::check(int result, const char* action, const LibavMessages& messages) const {
+    if (result < 0) throw_libav(FailureKind::kOutput, action, path_, result, messages);
+}
+
+void FilmMuxer::write(AVPacket& packet) {
+    const LibavMessages messages;
+    av_packet_rescale_ts(&packet, encoder_time_base_, context_->streams[0]->time_base);
+    packet.stream_index = 0;
+    check(av_interleaved_write_frame(context_.get(), &packet), "write", messages);
+    check(context_->pb->error, "write", messages);
+}
+
+void FilmMuxer::close() {
+    const LibavMessages messages;
+    check(av_write_trailer(context_.get()), "write", messages);
+    avio_flush(context_->pb);
+    check(context_->pb->error, "write", messages);
+    check(avio_closep(&context_->pb), "write", messages);
+}
+
+}  // namespace carom

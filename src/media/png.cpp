@@ -1,0 +1,258 @@
+#include "media/png.h"
+
+// libpng wants setjmp's header first.
+#include <csetjmp>
+//
+#include <fmt/format.h>
+#include <png.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "core/check.h"
+#include "core/failure.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::int64_t kMostPixels = 100'000'000;
+
+/// libpng's last words; plain data, because longjmp runs no destructors.
+struct PngText {
+    std::array<char, 256> text = {};
+};
+
+extern "C" {
+void carom_png_error(png_structp png, png_const_charp message) {
+    auto* text = static_cast<PngText*>(png_get_error_ptr(png));
+    std::snprintf(text->text.data(), text->text.size(), "%s", message);
+    png_longjmp(png, 1);
+}
+
+void carom_png_warning(png_structp, png_const_charp) {}  // what can be read is read
+
+void carom_png_append(png_structp png, png_bytep data, png_size_t size) {
+    bool full = false;
+    try {
+        static_cast<std::string*>(png_get_io_ptr(png))
+            ->append(reinterpret_cast<const char*>(data), size);
+    } catch (...) {
+        full = true;  // an exception must not pass through C
+    }
+    if (full) png_error(png, "out of memory");
+}
+}
+
+/// Runs `calls`, which may be left by longjmp at any call of libpng: it must own nothing.
+/// False: libpng failed, the text says why.
+template <class Calls>
+bool guarded(png_structp png, const Calls& calls) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    calls();
+    return true;
+}
+
+/// libpng's writer, and the bytes that it has made.
+class PngWriter {
+  public:
+    PngWriter() {
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &text_, carom_png_error,
+                                       carom_png_warning);
+        if (png_ != nullptr) info_ = png_create_info_struct(png_);
+        if (info_ == nullptr) {
+            png_destroy_write_struct(&png_, nullptr);
+            throw std::bad_alloc();
+        }
+    }
+    ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+
+    png_structp png() { return png_; }
+    png_infop info() { return info_; }
+    const char* text() const { return text_.text.data(); }
+    std::string& bytes() { return bytes_; }
+
+  private:
+    PngText text_;
+    std::string bytes_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+};
+
+class PngReader {
+  public:
+    PngReader() {
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &text_, carom_png_error,
+                                      carom_png_warning);
+        if (png_ != nullptr) info_ = png_create_info_struct(png_);
+        if (info_ == nullptr) {
+            png_destroy_read_struct(&png_, nullptr, nullptr);
+            throw std::bad_alloc();
+        }
+    }
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
+
+    png_structp png() { return png_; }
+    png_infop info() { return info_; }
+    const char* text() const { return text_.text.data(); }
+
+  private:
+    PngText text_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+};
+
+bool is_opaque(const Image& image) {
+    for (std::size_t i = 3; i < image.bgra.size(); i += 4)
+        if (image.bgra[i] != 255) return false;
+    return true;
+}
+
+/// p = straight * a / 255, rounded. The inverse of straighten() for every p <= a: straight is off
+/// by at most 1/2, so p by at most a/510, which is below 1/2 unless a = 255, where both are exact.
+std::uint8_t premultiply(unsigned straight, unsigned a) {
+    return static_cast<std::uint8_t>((straight * a + 127) / 255);
+}
+
+std::uint8_t straighten(unsigned premultiplied, unsigned a) {
+    if (a == 0) return 0;
+    return static_cast<std::uint8_t>(std::min(255U, (premultiplied * 255 + a / 2) / a));
+}
+
+/// One row of premultiplied BGRA as straight RGBA.
+void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width) {
+    for (int x = 0; x < width; ++x, bgra += 4, rgba += 4) {
+        const unsigned a = bgra[3];
+        rgba[0] = straighten(bgra[2], a);
+        rgba[1] = straighten(bgra[1], a);
+        rgba[2] = straighten(bgra[0], a);
+        rgba[3] = bgra[3];
+    }
+}
+
+void set_effort(png_structp png, PngEffort effort) {
+    constexpr std::size_t kChunkBytes = 1 << 16;
+    png_set_compression_buffer_size(png, kChunkBytes);
+    if (effort == PngEffort::kFast) {
+        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+        png_set_compression_level(png, 1);
+        png_set_compression_strategy(png, Z_RLE);
+    } else {
+        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
+        png_set_compression_level(png, 9);
+    }
+}
+
+/// A file that closes itself.
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using InputFile = std::unique_ptr<std::FILE, CloseFile>;
+
+[[noreturn]] void fail_reading(const std::string& path, const std::string& why) {
+    throw Failure(FailureKind::kInput, fmt::format("cannot read PNG '{}': {}", path, why));
+}
+
+/// Asks libpng for 8-bit straight BGRA, whatever the file holds.
+void set_reading_transforms(png_structp png) {
+    png_set_expand(png);  // palette, fewer than 8 bits, a transparent colour
+    png_set_scale_16(png);
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
+    png_set_bgr(png);
+    png_set_interlace_handling(png);
+}
+
+}  // namespace
+
+std::string encode_png(const Image& image, PngEffort effort) {
+    CAROM_CHECK(image.width_px, >, 0);
+    CAROM_CHECK(image.height_px, >, 0);
+    CAROM_CHECK(image.bgra.size(), ==,
+                image.stride_bytes() * static_cast<std::size_t>(image.height_px));
+    const bool opaque = is_opaque(image);
+    std::vector<std::uint8_t> straight(opaque ? 0 : image.stride_bytes());
+    PngWriter writer;
+    png_structp png = writer.png();
+    png_infop info = writer.info();
+    std::string* bytes = &writer.bytes();
+
+    const bool done = guarded(png, [&] {
+        png_set_write_fn(png, bytes, carom_png_append, nullptr);
+        set_effort(png, effort);
+        png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
+                     static_cast<png_uint_32>(image.height_px), 8,
+                     opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+        png_write_info(png, info);
+        if (opaque) {  // the fourth byte is dropped
+            png_set_filler(png, 0, PNG_FILLER_AFTER);
+            png_set_bgr(png);
+        }
+        for (int y = 0; y < image.height_px; ++y) {
+            if (!opaque) straighten_row(image.row(y), straight.data(), image.width_px);
+            png_write_row(png, opaque ? image.row(y) : straight.data());
+        }
+        png_write_end(png, nullptr);
+    });
+    if (!done)
+        throw Failure(FailureKind::kOutput,
+                      fmt::format("cannot encode a PNG of {}x{}: {}", image.width_px,
+                                  image.height_px, writer.text()));
+    return std::move(writer.bytes());
+}
+
+void write_png(const std::string& path, const Image& image, PngEffort effort,
+               Durability durability) {
+    write_text_file(path, encode_png(image, effort), durability);
+}
+
+Image read_png(const std::string& path) {
+    const InputFile file(std::fopen(path.c_str(), "rbe"));
+    if (!file) fail_reading(path, std::strerror(errno));
+    PngReader reader;
+    png_structp png = reader.png();
+    png_infop info = reader.info();
+    std::FILE* raw_file = file.get();
+
+    if (!guarded(png, [&] {
+            png_init_io(png, raw_file);
+            png_read_info(png, info);
+        }))
+        fail_reading(path, reader.text());
+    const auto width = static_cast<std::int64_t>(png_get_image_width(png, info));
+    const auto height = static_cast<std::int64_t>(png_get_image_height(png, info));
+    if (width * height > kMostPixels)
+        fail_reading(path, fmt::format("{}x{} is more than 100 megapixels", width, height));
+
+    Image image(static_cast<int>(width), static_cast<int>(height));
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < image.height_px; ++y) rows.push_back(image.row(y));
+    if (!guarded(png, [&] {
+            set_reading_transforms(png);
+            png_read_update_info(png, info);
+            if (png_get_rowbytes(png, info) != image.stride_bytes())
+                png_error(png, "the samples cannot be brought to 8-bit RGBA");
+            png_read_image(png, rows.data());
+            png_read_end(png, nullptr);
+        }))
+        fail_reading(path, reader.text());
+
+    for (std::size_t i = 0; i < image.bgra.size(); i += 4)
+        for (std::size_t c = i; c < i + 3; ++c)
+            image.bgra[c] = premultiply(image.bgra[c], image.bgra[i + 3]);
+    return image;
+}
+
+}  // namespace carom

@@ -1,0 +1,192 @@
+#include "render/ball_billboards.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+// One instance, in the order of the vertex shader's attributes (ball_vertex.glsl).
+constexpr std::array<const char*, 10> kAttributes = {
+    "a_bound", "a_axes", "a_ray",   "a_offset", "a_row_x",
+    "a_row_y", "a_row_z", "a_color", "a_second", "a_contact"};
+constexpr std::size_t kInstanceFloats = 4 * kAttributes.size();
+constexpr GLsizei kCorners = 8;  ///< of the octagon around a ball
+constexpr int kMostCasters = 8;  ///< balls that shade one ball; more would hardly be seen
+
+/// The style that a look means on a ball: patterns of surfaces are none on a ball.
+LookStyle ball_style(LookStyle style) {
+    return style == LookStyle::kChecker || style == LookStyle::kGrid ? LookStyle::kPlain : style;
+}
+
+GlProgram make_program(const Gl& gl, LookStyle style, bool occluded) {
+    GlProgram::Sources sources;
+    sources.name = fmt::format("ball, style {}", static_cast<int>(style));
+    std::vector<std::string> defines = {fmt::format("STYLE {}", static_cast<int>(style))};
+    if (occluded) defines.push_back("OCCLUDED");
+    sources.vertex = assemble_shader(defines, {"ball_vertex"});
+    sources.fragment = assemble_shader(defines, {"ball_markings", "ball_fragment"});
+    sources.attributes.assign(kAttributes.begin(), kAttributes.end());
+    sources.outputs = {"out_color"};
+    return GlProgram(gl, sources);
+}
+
+void put(std::vector<float>& out, const Vec3& xyz, double w) {
+    for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(xyz[i]));
+    out.push_back(static_cast<float>(w));
+}
+
+void put(std::vector<float>& out, const Vec2& xy, const Vec2& zw) {
+    put(out, Vec3(xy.x(), xy.y(), zw.x()), zw.y());
+}
+
+Vec3 linear(const Color& c) {
+    return {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
+}
+
+}  // namespace
+
+BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& view,
+                               const Lights& lights, bool occluded)
+    : gl_(&gl),
+      scene_(&scene),
+      view_(view),
+      body_shade_(scene, view, lights),
+      to_light_(view_direction(view, lights.to_light)),
+      light_tan_(lights.tan_radius),
+      occluded_(occluded),
+      vertex_array_(gl),
+      instance_buffer_(gl),
+      caster_array_(gl) {
+    for (const Ball& ball : scene.balls) {
+        const LookStyle style =
+            ball_style(scene.looks.at(static_cast<std::size_t>(ball.look)).style);
+        if (programs_.count(style) != 0) continue;
+        GlProgram program = make_program(gl, style, occluded);
+        set_common_uniforms(gl, program, view, lights);
+        gl.Uniform2f(program.uniform("u_size"), static_cast<float>(view.width_px()),
+                     static_cast<float>(view.height_px()));
+        gl.Uniform1i(program.uniform("u_facts"), 0);
+        gl.Uniform1i(program.uniform("u_front"), 1);
+        gl.Uniform1i(program.uniform("u_casters"), 2);
+        programs_.emplace(style, std::move(program));
+    }
+    gl.BindVertexArray(vertex_array_.name());
+    for (GLuint i = 0; i < kAttributes.size(); ++i) {
+        gl.EnableVertexAttribArray(i);
+        gl.VertexAttribDivisor(i, 1);
+    }
+    gl.check("preparing the balls");
+}
+
+LookStyle BallBillboards::style_of(const BallInView& ball) const {
+    return ball_style(scene_->looks[static_cast<std::size_t>(ball.look)].style);
+}
+
+BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInView>& balls) const {
+    Casters casters;
+    for (const BallInView& ball : balls) {
+        const int first = static_cast<int>(casters.vec4s.size() / 4);
+        int count = 0;
+        for (const BallInView& other : balls) {
+            if (&other == &ball || count == kMostCasters) continue;
+            // Between the ball and the lamp, within the penumbra's reach, or close enough to darken.
+            const Vec3 rel = other.center - ball.center;
+            const double along = rel.dot(to_light_);
+            const double reach = ball.radius + other.radius;
+            if (along < -reach) continue;
+            const double across2 = rel.squaredNorm() - along * along;
+            const double wide = reach + std::max(0.0, along) * light_tan_;
+            if (across2 > wide * wide) continue;
+            // A lamp that looks much larger than the caster hides the shadow.
+            if (along * light_tan_ > 8 * other.radius) continue;
+            put(casters.vec4s, rel / ball.radius, other.radius / ball.radius);
+            ++count;
+        }
+        casters.first.push_back(first);
+        casters.count.push_back(count);
+    }
+    return casters;
+}
+
+void BallBillboards::append_instance(const BallInView& ball, const BallShade& shade,
+                                     int first_caster, int casters) {
+    const Outline outline = project_sphere(ball.center, ball.radius, view_);
+    const Vec2 size(view_.width_px(), view_.height_px());
+    Vec2 bound = 0.5 * size, major(size.x(), 0), minor(0, size.y());
+    if (outline.is_ellipse) {
+        // An octagon around the ellipse, and a pixel for the soft edge.
+        const double around = 1.0 / std::cos(M_PI / kCorners);
+        bound = outline.center;
+        major = outline.major * around + outline.major.normalized();
+        minor = outline.minor * around + outline.minor.normalized();
+    }
+    // The centre as depth * (ray through a pixel) + rest, so that the shader works with the small
+    // difference of two rays instead of with large coordinates.
+    const bool ahead = outline.is_ellipse;
+    const double depth = ahead ? ball.center.z() : 0.0;
+    const Vec2 reference =
+        ahead ? Vec2(0.5 * size + Vec2(ball.center.x(), ball.center.y()) /
+                                      (ball.center.z() * pixel_width(view_)))
+              : Vec2(0.5 * size);
+    const Vec3 rest = ahead ? Vec3(Vec3::Zero()) : ball.center;
+    const Look& look = scene_->looks[static_cast<std::size_t>(ball.look)];
+
+    put(instances_, bound, Vec2(first_caster, casters));
+    put(instances_, major, minor);
+    put(instances_, reference, Vec2(depth / ball.radius, ball.radius));
+    put(instances_, rest / ball.radius, 0);
+    for (int row = 0; row < 3; ++row)
+        put(instances_, ball.ball_from_view.row(row).transpose(), row == 0 ? shade.key : 0.0);
+    put(instances_, linear(look.color), 0);
+    put(instances_, linear(look.second_color), 0);
+    put(instances_, shade.contact, shade.contact_strength);
+}
+
+void BallBillboards::draw(const std::vector<BallInView>& balls, const StaticPicture& background) {
+    const Casters casters = find_casters(balls);
+    instances_.clear();
+    std::vector<LookStyle> styles;  // of the balls that may be seen
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (!may_be_seen(balls[i], view_)) continue;
+        append_instance(balls[i], body_shade_.on(balls[i]), casters.first[i], casters.count[i]);
+        styles.push_back(style_of(balls[i]));
+    }
+    if (styles.empty()) return;
+
+    caster_array_.upload(casters.vec4s);
+    caster_array_.bind(2);
+    if (occluded_) {
+        gl_->ActiveTexture(GL_TEXTURE1);
+        gl_->BindTexture(GL_TEXTURE_2D, background.front().name());
+        gl_->ActiveTexture(GL_TEXTURE0);
+        gl_->BindTexture(GL_TEXTURE_2D, background.facts().name());
+    }
+    gl_->BindVertexArray(vertex_array_.name());
+    gl_->BindBuffer(GL_ARRAY_BUFFER, instance_buffer_.name());
+    gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(float)),
+                    instances_.data(), GL_STREAM_DRAW);
+    gl_->Enable(GL_BLEND);
+    gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+
+    // One call per run of equal styles: the order from far to near must stay.
+    constexpr std::size_t kStride = kInstanceFloats * sizeof(float);
+    for (std::size_t begin = 0; begin < styles.size();) {
+        std::size_t end = begin + 1;
+        while (end < styles.size() && styles[end] == styles[begin]) ++end;
+        programs_.at(styles[begin]).use();
+        for (GLuint i = 0; i < kAttributes.size(); ++i) {
+            const std::size_t offset = begin * kStride + std::size_t{i} * 4 * sizeof(float);
+            gl_->VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kStride),
+                                     reinterpret_cast<const void*>(offset));
+        }
+        gl_->DrawArraysInstanced(GL_TRIANGLE_FAN, 0, kCorners, static_cast<GLsizei>(end - begin));
+        begin = end;
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+#include "render/ball_shadows.h"
+
+#include <fmt/core.h>
+
+namespace carom {
+
+namespace {
+
+GlProgram make_program(const Gl& gl) {
+    GlProgram::Sources sources;
+    sources.name = "ball shadows";
+    sources.vertex = assemble_shader({fmt::format("TILE_PX {}.0", ShadowTiles::kTilePx)},
+                                     {"tile_vertex"});
+    sources.fragment = assemble_shader({}, {"ball_shadow_fragment"});
+    sources.attributes = {"a_tile"};
+    sources.outputs = {"out_factor"};
+    return GlProgram(gl, sources);
+}
+
+}  // namespace
+
+BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights)
+    : gl_(&gl),
+      tiles_(scene, view, lights),
+      program_(make_program(gl)),
+      vertex_array_(gl),
+      tile_buffer_(gl),
+      caster_array_(gl) {
+    set_common_uniforms(gl, program_, view, lights);
+    gl.Uniform2f(program_.uniform("u_size"), static_cast<float>(view.width_px()),
+                 static_cast<float>(view.height_px()));
+    gl.Uniform1i(program_.uniform("u_facts"), 0);
+    gl.Uniform1i(program_.uniform("u_casters"), 2);
+    gl.BindVertexArray(vertex_array_.name());
+    gl.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
+    gl.EnableVertexAttribArray(0);
+    gl.VertexAttribDivisor(0, 1);
+    gl.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+    gl.check("preparing the shadows");
+}
+
+void BallShadows::draw(const std::vector<BallInView>& balls, const StaticPicture& background) {
+    tiles_.update(balls);
+    const std::vector<float>& tiles = tiles_.tiles();
+    if (tiles.empty()) return;
+    program_.use();
+    caster_array_.upload(tiles_.casters());
+    caster_array_.bind(2);
+    gl_->ActiveTexture(GL_TEXTURE0);
+    gl_->BindTexture(GL_TEXTURE_2D, background.facts().name());
+    gl_->BindVertexArray(vertex_array_.name());
+    gl_->BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
+    gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(float)),
+                    tiles.data(), GL_STREAM_DRAW);
+    // Linear colour times the factor; alpha stays.
+    gl_->Enable(GL_BLEND);
+    gl_->BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size() / 4));
+}
+
+}  // namespace carom

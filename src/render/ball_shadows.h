@@ -1,0 +1,31 @@
+// The balls' shadows on everything that stands still: key light and ambient light, once per pixel.
+#pragma once
+
+#include <vector>
+
+#include "render/gl.h"
+#include "render/shadow_tiles.h"
+#include "render/static_picture.h"
+
+namespace carom {
+
+class BallShadows {
+  public:
+    /// `gl` and `scene` must outlive it.
+    BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights);
+
+    /// Darkens the copy of the static picture in the framebuffer that is bound. All casters of a
+    /// pixel are combined before the colour is changed, so that shadows that overlap are not darker
+    /// than the light that is left.
+    void draw(const std::vector<BallInView>& balls, const StaticPicture& background);
+
+  private:
+    const Gl* gl_;
+    ShadowTiles tiles_;
+    GlProgram program_;
+    GlVertexArray vertex_array_;
+    GlBuffer tile_buffer_;
+    GlVec4Array caster_array_;
+};
+
+}  // namespace carom

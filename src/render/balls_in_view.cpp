@@ -1,0 +1,73 @@
+#include "render/balls_in_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "render/lights.h"
+
+namespace carom {
+
+Outline project_sphere(const Vec3& center, double radius, const View& view) {
+    // Nearer than this to the eye's plane, in radii, the ellipse grows beyond all bounds.
+    constexpr double kClearance = 1.02;
+    Outline outline;
+    if (center.z() <= kClearance * radius) return outline;
+
+    // The cone of tangents cuts the plane z = 1 in an ellipse whose major axis points away from the
+    // view axis; with D = cz^2 - r^2: centre c.xy cz / D, semi-axes r sqrt(|c|^2 - r^2) / D and
+    // r / sqrt(D).
+    const double d = center.z() * center.z() - radius * radius;
+    const double per_unit = 1.0 / pixel_width(view);
+    const Vec2 off(center.x(), center.y());
+    const double off_axis = off.norm();
+    const Vec2 outward = off_axis > 0 ? Vec2(off / off_axis) : Vec2(1, 0);
+    const Vec2 middle(0.5 * view.width_px(), 0.5 * view.height_px());
+    outline.is_ellipse = true;
+    outline.center = middle + off * (center.z() / d * per_unit);
+    outline.major =
+        outward * (radius * std::sqrt(center.squaredNorm() - radius * radius) / d * per_unit);
+    outline.minor = Vec2(-outward.y(), outward.x()) * (radius / std::sqrt(d) * per_unit);
+    return outline;
+}
+
+std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& motion,
+                                 const View& view) {
+    CAROM_CHECK(scene.balls.size(), ==, motion.balls.size());
+    Mat3 view_from_world;
+    for (int axis = 0; axis < 3; ++axis)
+        view_from_world.col(axis) = view_direction(view, Vec3::Unit(axis));
+
+    std::vector<BallInView> balls(scene.balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        const BallState state = motion.balls[i].at(t);
+        balls[i].center = view_point(view, state.position);
+        balls[i].radius = scene.balls[i].radius;
+        const Mat3 world_from_ball = state.orientation.toRotationMatrix();
+        balls[i].ball_from_view = world_from_ball.transpose() * view_from_world.transpose();
+        balls[i].index = static_cast<int>(i);
+        balls[i].look = scene.balls[i].look;
+    }
+    const auto power = [](const BallInView& b) {
+        return b.center.squaredNorm() - b.radius * b.radius;
+    };
+    std::stable_sort(balls.begin(), balls.end(), [&](const BallInView& a, const BallInView& b) {
+        return power(a) > power(b);
+    });
+    return balls;
+}
+
+bool may_be_seen(const BallInView& ball, const View& view) {
+    const bool around_eye = ball.center.norm() <= ball.radius;
+    const bool behind = ball.center.z() + ball.radius <= 0;
+    if (around_eye || behind) return false;
+    const Outline outline = project_sphere(ball.center, ball.radius, view);
+    if (!outline.is_ellipse) return true;
+    // Half extents of the ellipse along x and y, and a pixel for the soft edge.
+    const double half_x = std::hypot(outline.major.x(), outline.minor.x()) + 1;
+    const double half_y = std::hypot(outline.major.y(), outline.minor.y()) + 1;
+    return outline.center.x() + half_x > 0 && outline.center.x() - half_x < view.width_px() &&
+           outline.center.y() + half_y > 0 && outline.center.y() - half_y < view.height_px();
+}
+
+}  // namespace carom

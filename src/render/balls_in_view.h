@@ -1,0 +1,39 @@
+// The balls of one instant as the passes of a frame need them: view space, farthest first.
+#pragma once
+
+#include <vector>
+
+#include "motion/motion.h"
+#include "render/camera.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// One ball at one instant, view space (render/lights.h), metres.
+struct BallInView {
+    Vec3 center = Vec3::Zero();
+    double radius = 0;
+    Mat3 ball_from_view = Mat3::Identity();  ///< rotation into the ball's own axes
+    int index = 0;                           ///< into Scene::balls
+    int look = 0;                            ///< into Scene::looks
+};
+
+/// A sphere's outline on the picture: an ellipse, pixels. There is none if the sphere reaches
+/// behind the eye's plane (the outline may be a hyperbola); then the whole picture is its bound.
+struct Outline {
+    bool is_ellipse = false;
+    Vec2 center = Vec2::Zero();
+    Vec2 major = Vec2::Zero();  ///< semi-axes
+    Vec2 minor = Vec2::Zero();
+};
+Outline project_sphere(const Vec3& center, double radius, const View& view);
+
+/// All balls at `t`, in the order in which they must be drawn: |c|^2 - r^2 descending orders
+/// disjoint spheres exactly (of two, the one with the smaller power of the eye is never behind).
+std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& motion,
+                                 const View& view);
+
+/// False where no pixel can show it: behind the eye, beside the picture, or around the eye.
+bool may_be_seen(const BallInView& ball, const View& view);
+
+}  // namespace carom

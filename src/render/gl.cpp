@@ -1,0 +1,203 @@
+#include "render/gl.h"
+
+#include <fmt/core.h>
+
+#include "core/failure.h"
+#include "render/shader_sources.h"
+
+namespace carom {
+
+namespace {
+
+const char* error_name(GLenum error) {
+    switch (error) {
+        case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
+        case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
+        case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
+        case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
+        case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
+        default: return "unknown error";
+    }
+}
+
+const char* status_name(GLenum status) {
+    switch (status) {
+        case GL_FRAMEBUFFER_UNDEFINED: return "GL_FRAMEBUFFER_UNDEFINED";
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
+        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+            return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
+        case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER: return "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER";
+        case GL_FRAMEBUFFER_UNSUPPORTED: return "GL_FRAMEBUFFER_UNSUPPORTED";
+        default: return "unknown status";
+    }
+}
+
+/// The driver's log without trailing line ends.
+std::string trimmed(std::string log, GLsizei length) {
+    log.resize(static_cast<std::size_t>(length));
+    while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
+    return log;
+}
+
+constexpr GLsizei kLogBytes = 8192;
+
+/// Deletes the shader when it goes out of scope; a linked program keeps what it needs.
+class Shader {
+  public:
+    Shader(const Gl& gl, GLenum stage, const std::string& text, const std::string& program)
+        : gl_(gl), name_(gl.CreateShader(stage)) {
+        const char* source = text.c_str();
+        gl.ShaderSource(name_, 1, &source, nullptr);
+        gl.CompileShader(name_);
+        GLint compiled = GL_FALSE;
+        gl.GetShaderiv(name_, GL_COMPILE_STATUS, &compiled);
+        if (compiled == GL_TRUE) return;
+        std::string log(static_cast<std::size_t>(kLogBytes), '\0');
+        GLsizei length = 0;
+        gl.GetShaderInfoLog(name_, kLogBytes, &length, log.data());
+        gl.DeleteShader(name_);
+        throw Failure(FailureKind::kRun,
+                      fmt::format("the {} shader \"{}\" does not compile: {}",
+                                  stage == GL_VERTEX_SHADER ? "vertex" : "fragment", program,
+                                  trimmed(std::move(log), length)));
+    }
+    ~Shader() { gl_.DeleteShader(name_); }
+    Shader(const Shader&) = delete;
+    Shader& operator=(const Shader&) = delete;
+    GLuint name() const { return name_; }
+
+  private:
+    const Gl& gl_;
+    GLuint name_;
+};
+
+}  // namespace
+
+Gl Gl::load(Loader loader) {
+    Gl gl;
+#define CAROM_GL_LOAD(type, name)                               \
+    gl.name = reinterpret_cast<type>(loader("gl" #name));       \
+    if (gl.name == nullptr)                                     \
+        throw Failure(FailureKind::kRun, "the OpenGL library has no entry point gl" #name);
+    CAROM_GL_FUNCTIONS(CAROM_GL_LOAD)
+#undef CAROM_GL_LOAD
+    return gl;
+}
+
+void Gl::check(const std::string& attempted) const {
+    const GLenum error = GetError();
+    if (error != GL_NO_ERROR)
+        throw Failure(FailureKind::kRun, fmt::format("OpenGL failed while {}: {} ({:#x})",
+                                                     attempted, error_name(error), error));
+}
+
+GLuint GlBufferTraits::make(const Gl& gl) {
+    GLuint name = 0;
+    gl.GenBuffers(1, &name);
+    return name;
+}
+GLuint GlTextureTraits::make(const Gl& gl) {
+    GLuint name = 0;
+    gl.GenTextures(1, &name);
+    return name;
+}
+GLuint GlFramebufferTraits::make(const Gl& gl) {
+    GLuint name = 0;
+    gl.GenFramebuffers(1, &name);
+    return name;
+}
+GLuint GlVertexArrayTraits::make(const Gl& gl) {
+    GLuint name = 0;
+    gl.GenVertexArrays(1, &name);
+    return name;
+}
+
+GlProgram::GlProgram(const Gl& gl, const Sources& sources) : gl_(&gl), object_(gl) {
+    const GLuint program = object_.name();
+    const Shader vertex(gl, GL_VERTEX_SHADER, sources.vertex, sources.name);
+    const Shader fragment(gl, GL_FRAGMENT_SHADER, sources.fragment, sources.name);
+    gl.AttachShader(program, vertex.name());
+    gl.AttachShader(program, fragment.name());
+    for (std::size_t i = 0; i < sources.attributes.size(); ++i)
+        gl.BindAttribLocation(program, static_cast<GLuint>(i), sources.attributes[i]);
+    for (std::size_t i = 0; i < sources.outputs.size(); ++i)
+        gl.BindFragDataLocation(program, static_cast<GLuint>(i), sources.outputs[i]);
+    gl.LinkProgram(program);
+
+    GLint linked = GL_FALSE;
+    gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return;
+    std::string log(static_cast<std::size_t>(kLogBytes), '\0');
+    GLsizei length = 0;
+    gl.GetProgramInfoLog(program, kLogBytes, &length, log.data());
+    throw Failure(FailureKind::kRun, fmt::format("the shader program \"{}\" does not link: {}",
+                                                 sources.name, trimmed(std::move(log), length)));
+}
+
+std::string assemble_shader(const std::vector<std::string>& defines,
+                            const std::vector<std::string_view>& files) {
+    std::string text = "#version 330 core\n";
+    for (const std::string& define : defines) text += "#define " + define + "\n";
+    text += shader_source("common");
+    for (const std::string_view file : files) {
+        const std::string_view body = shader_source(file);
+        if (body.empty())
+            throw Failure(FailureKind::kRun, fmt::format("no shader file \"{}.glsl\"", file));
+        text += body;
+    }
+    return text;
+}
+
+GlTexture make_texture(const Gl& gl, GLint internal_format, int width, int height, GLenum format,
+                       GLenum type, const void* pixels) {
+    GlTexture texture(gl);
+    gl.BindTexture(GL_TEXTURE_2D, texture.name());
+    gl.TexImage2D(GL_TEXTURE_2D, 0, internal_format, width, height, 0, format, type, pixels);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    return texture;
+}
+
+GlFramebuffer make_framebuffer(const Gl& gl, const std::string& purpose,
+                               const std::vector<const GlTexture*>& colors) {
+    GlFramebuffer framebuffer(gl);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    std::vector<GLenum> attachments;
+    for (const GlTexture* color : colors) {
+        attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size()));
+        gl.FramebufferTexture2D(GL_FRAMEBUFFER, attachments.back(), GL_TEXTURE_2D, color->name(),
+                                0);
+    }
+    gl.DrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
+    const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw Failure(FailureKind::kRun, fmt::format("the framebuffer for {} is incomplete: {} ({:#x})",
+                                                     purpose, status_name(status), status));
+    return framebuffer;
+}
+
+GlVec4Array::GlVec4Array(const Gl& gl) : gl_(&gl), buffer_(gl), texture_(gl) {
+    upload({0, 0, 0, 0});
+    gl.BindTexture(GL_TEXTURE_BUFFER, texture_.name());
+    gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.name());
+}
+
+void GlVec4Array::upload(const std::vector<float>& floats) {
+    // An empty buffer would leave the texture without storage, which drivers need not accept.
+    static constexpr float kNothing[4] = {};
+    const bool empty = floats.empty();
+    gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
+    gl_->BufferData(GL_TEXTURE_BUFFER,
+                    static_cast<GLsizeiptr>(empty ? sizeof kNothing : floats.size() * sizeof(float)),
+                    empty ? kNothing : floats.data(), GL_STREAM_DRAW);
+}
+
+void GlVec4Array::bind(int unit) const {
+    gl_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl_->BindTexture(GL_TEXTURE_BUFFER, texture_.name());
+}
+
+}  // namespace carom

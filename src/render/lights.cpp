@@ -1,0 +1,48 @@
+#include "render/lights.h"
+
+#include <cmath>
+
+namespace carom {
+
+Vec3 view_direction(const View& view, const Vec3& world) {
+    return {world.dot(view.right()), -world.dot(view.up()), world.dot(view.forward())};
+}
+
+Vec3 view_point(const View& view, const Vec3& world) {
+    return view_direction(view, world - view.eye());
+}
+
+double pixel_width(const View& view) { return 2.0 * view.tan_half_fov_y() / view.height_px(); }
+
+Lights choose_lights(const View& view) {
+    const Vec3 up = Vec3::UnitZ();
+    // The camera's right hand, made level; a camera that is rolled on its side uses its heading.
+    Vec3 right = view.right() - up * up.dot(view.right());
+    if (right.norm() < 1e-3) right = view.up().cross(up);
+    if (right.norm() < 1e-3) right = Vec3::UnitX();
+    right.normalize();
+    const Vec3 towards_viewer = right.cross(up);
+
+    Lights lights;
+    lights.to_light = (-0.50 * right + 0.42 * towards_viewer + 1.0 * up).normalized();
+    return lights;
+}
+
+void set_common_uniforms(const Gl& gl, const GlProgram& program, const View& view,
+                         const Lights& lights) {
+    const Vec3 up = view_direction(view, Vec3::UnitZ());
+    const Vec3 light = view_direction(view, lights.to_light);
+    const auto f = [](double value) { return static_cast<float>(value); };
+    program.use();
+    gl.Uniform2f(program.uniform("u_center"), f(0.5 * view.width_px()), f(0.5 * view.height_px()));
+    gl.Uniform1f(program.uniform("u_pixel"), f(pixel_width(view)));
+    gl.Uniform3f(program.uniform("u_up"), f(up.x()), f(up.y()), f(up.z()));
+    gl.Uniform3f(program.uniform("u_light"), f(light.x()), f(light.y()), f(light.z()));
+    gl.Uniform1f(program.uniform("u_light_tan"), f(lights.tan_radius));
+}
+
+double linear_from_srgb(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace carom

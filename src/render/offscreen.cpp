@@ -1,0 +1,90 @@
+#include "render/offscreen.h"
+
+#include <GL/osmesa.h>
+#include <fmt/core.h>
+
+#include <array>
+
+#include "core/failure.h"
+
+namespace carom {
+
+namespace {
+
+constexpr int kDummyEdge = 16;  ///< pixels; OSMesa wants some memory, no drawing goes there
+constexpr int kMajor = 3, kMinor = 3;
+
+std::string text_of(const Gl& gl, GLenum what) {
+    const GLubyte* text = gl.GetString(what);
+    return text == nullptr ? std::string("unknown") : reinterpret_cast<const char*>(text);
+}
+
+}  // namespace
+
+class OffscreenContext::Impl {
+  public:
+    Impl() {
+        const std::array<int, 9> attributes = {OSMESA_FORMAT,
+                                               OSMESA_RGBA,
+                                               OSMESA_PROFILE,
+                                               OSMESA_CORE_PROFILE,
+                                               OSMESA_CONTEXT_MAJOR_VERSION,
+                                               kMajor,
+                                               OSMESA_CONTEXT_MINOR_VERSION,
+                                               kMinor,
+                                               0};
+        context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+        if (context_ == nullptr)
+            throw Failure(FailureKind::kRun,
+                          fmt::format("OSMesa gives no OpenGL {}.{} core context", kMajor, kMinor));
+        try {
+            make_current();
+            gl_ = Gl::load(&OSMesaGetProcAddress);
+            check_version();
+        } catch (...) {
+            OSMesaDestroyContext(context_);
+            throw;
+        }
+    }
+    ~Impl() { OSMesaDestroyContext(context_); }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void make_current() {
+        if (OSMesaGetCurrentContext() == context_) return;
+        if (OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummyEdge, kDummyEdge) !=
+            GL_TRUE)
+            throw Failure(FailureKind::kRun, "OSMesa cannot make its context current");
+    }
+
+    const Gl& gl() const { return gl_; }
+
+  private:
+    // OSMesaGetProcAddress returns a pointer for names that do not exist: only the version tells.
+    void check_version() const {
+        GLint major = 0, minor = 0;
+        gl_.GetIntegerv(GL_MAJOR_VERSION, &major);
+        gl_.GetIntegerv(GL_MINOR_VERSION, &minor);
+        if (major > kMajor || (major == kMajor && minor >= kMinor)) return;
+        throw Failure(FailureKind::kRun,
+                      fmt::format("OpenGL {}.{} is needed, but the driver has \"{}\"", kMajor,
+                                  kMinor, text_of(gl_, GL_VERSION)));
+    }
+
+    OSMesaContext context_ = nullptr;
+    std::array<unsigned char, kDummyEdge * kDummyEdge * 4> dummy_{};
+    Gl gl_;
+};
+
+OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>()) {}
+OffscreenContext::~OffscreenContext() = default;
+OffscreenContext::OffscreenContext(OffscreenContext&&) noexcept = default;
+OffscreenContext& OffscreenContext::operator=(OffscreenContext&&) noexcept = default;
+
+void OffscreenContext::make_current() { impl_->make_current(); }
+const Gl& OffscreenContext::gl() const { return impl_->gl(); }
+std::string OffscreenContext::renderer() const {
+    return text_of(gl(), GL_RENDERER) + ", " + text_of(gl(), GL_VERSION);
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+// An OpenGL context without a display, through OSMesa (Mesa's off-screen library, here on llvmpipe).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/gl.h"
+
+namespace carom {
+
+/// Owns one context of OpenGL 3.3 core. OSMesa draws into memory of the caller; carom draws into
+/// its own framebuffer objects instead, so that memory is a 16 x 16 dummy.
+/// One thread at a time; several contexts may live in one process.
+class OffscreenContext {
+  public:
+    /// Failure(kRun) if there is no context, its version is below 3.3, or an entry point is missing.
+    OffscreenContext();
+    ~OffscreenContext();
+    OffscreenContext(OffscreenContext&&) noexcept;
+    OffscreenContext& operator=(OffscreenContext&&) noexcept;
+
+    /// Cheap when it is current already; call it before every use of GL.
+    void make_current();
+    const Gl& gl() const;
+    /// For example "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
+    std::string renderer() const;
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace carom

@@ -1,0 +1,255 @@
+#include "render/overlay_labels.h"
+
+#include <cairo.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/overlay_style.h"
+
+namespace carom {
+
+namespace {
+
+using Rect = OverlayPainter::Rect;
+
+constexpr int kBetween = 1;  // px between two labels; keeps them apart after rounding
+
+bool overlap(const Rect& a, const Rect& b) {
+    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
+           b.y < a.y + a.height;
+}
+
+/// A label that looks for its place; y is its top edge.
+struct Seeker {
+    double x, y, width, height;
+    const std::vector<Rect>& taken;
+
+    Rect rounded() const {
+        return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)),
+                static_cast<int>(width), static_cast<int>(height)};
+    }
+    const Rect* in_the_way() const {
+        const Rect here = rounded();
+        for (const Rect& other : taken)
+            if (overlap(here, other)) return &other;
+        return nullptr;
+    }
+
+    /// Moves straight away from the centres of those in the way until it just touches them. With
+    /// distances in units of half the sizes, the overlap is a square around the other's centre,
+    /// and a point inside goes along its ray to the square's edge: continuous but in the centre.
+    void give_way() {
+        for (const Rect& other : taken) {
+            const double dx = x + 0.5 * width - (other.x + 0.5 * other.width);
+            const double dy = y + 0.5 * height - (other.y + 0.5 * other.height);
+            const double u = std::abs(dx) / (0.5 * (width + other.width) + kBetween);
+            const double v = std::abs(dy) / (0.5 * (height + other.height) + kBetween);
+            const double inside = std::max(u, v);
+            if (inside >= 1 || inside == 0) continue;
+            x += dx * (1 / inside - 1);
+            y += dy * (1 / inside - 1);
+        }
+    }
+    /// To the nearest free place in one direction.
+    void evade(double direction) {
+        for (std::size_t i = 0; i <= taken.size(); ++i) {
+            const Rect* other = in_the_way();
+            if (!other) return;
+            y = direction < 0 ? other->y - height - kBetween : other->y + other->height + kBetween;
+        }
+    }
+};
+
+}  // namespace
+
+std::string label_text(const std::string& name) {
+    std::string text = name;
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+}
+
+std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelWish>& wishes,
+                                                    int width_px, int height_px,
+                                                    const std::vector<Rect>& obstacles) {
+    std::vector<std::optional<LabelPlace>> places(wishes.size());
+    std::vector<Rect> taken = obstacles;
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+        const LabelWish& wish = wishes[i];
+        if (!wish.in_picture || wish.width > width_px || wish.height > height_px) continue;
+        Seeker label{wish.center_x - 0.5 * wish.width, wish.bottom_y - wish.height,
+                     double(wish.width), double(wish.height), taken};
+        const double lowest = height_px - wish.height, rightmost = width_px - wish.width;
+        const auto stay_in_picture = [&] {
+            label.x = std::clamp(label.x, 0.0, rightmost);
+            label.y = std::clamp(label.y, 0.0, lowest);
+        };
+        stay_in_picture();
+        // Between two others it takes a few turns to settle.
+        for (int turn = 0; turn < 4 && label.in_the_way(); ++turn) label.give_way();
+        stay_in_picture();
+        const double settled = label.y;
+        label.evade(-1);
+        if (label.y < 0) {  // no room above: below what is in the way
+            label.y = settled;
+            label.evade(+1);
+        }
+        const Rect rect = label.rounded();
+        if (rect.y < 0 || rect.y > lowest || label.in_the_way()) continue;
+        places[i] = LabelPlace{rect};
+        taken.push_back(rect);
+    }
+    return places;
+}
+
+OverlayLabels::OverlayLabels(const Scene& scene, const Motion& motion, const View& view,
+                             const std::string& font_family)
+    : scene_(scene), motion_(motion), view_(view) {
+    const double size = letters_px(scene.overlay.labels->size_px, view.height_px());
+    const Font font(font_family, size);
+    const double halo = 0.2 * size;
+    gap_px_ = 0.15 * size;
+    for (const Ball& ball : scene.balls) {
+        const TextRun run = font.lay_out(label_text(ball.name));
+        const double border = std::ceil(halo);
+        const double height = std::ceil(font.cap_height_px() + font.descent_px() + 2 * border);
+        Image picture(static_cast<int>(std::ceil(run.width_px + 2 * border)),
+                      static_cast<int>(height));
+        Canvas canvas(picture);
+        const double base = std::round(height - border - font.descent_px());
+        font.draw(canvas, run, border, base, kSlate, halo);
+        canvas.finish();
+        pictures_.push_back(std::move(picture));
+    }
+}
+
+std::vector<LabelWish> OverlayLabels::wishes(double t) const {
+    std::vector<LabelWish> wishes(pictures_.size());
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+        const View::Projected center = view_.project(motion_.balls[i].at(t).position);
+        const double radius = scene_.balls[i].radius;
+        const double radius_px = radius * view_.pixels_per_metre(center.depth_m);
+        LabelWish& wish = wishes[i];
+        wish.in_picture = center.depth_m > radius && center.x_px > -radius_px &&
+                          center.x_px < view_.width_px() + radius_px && center.y_px > -radius_px &&
+                          center.y_px < view_.height_px() + radius_px;
+        wish.center_x = center.x_px;
+        wish.bottom_y = center.y_px - radius_px - gap_px_;
+        wish.width = pictures_[i].width_px;
+        wish.height = pictures_[i].height_px;
+    }
+    return wishes;
+}
+
+namespace {
+
+/// 1 for labels that pass each other level, 0 for those at least two heights apart. `before` and
+/// `after` are their distances in height at two instants: they may have crossed in between.
+double level(double before, double after, double height) {
+    if (before * after <= 0) return 1;
+    const double apart = std::min(std::abs(before), std::abs(after)) / height;
+    return std::clamp(2 - apart, 0.0, 1.0);
+}
+
+/// 1 at the instant itself, falling smoothly to 0 at the edge of what is looked at.
+double nearness(double share) {
+    const double rest = std::clamp(1 - share, 0.0, 1.0);
+    return rest * rest * (3 - 2 * rest);
+}
+
+}  // namespace
+
+Eigen::MatrixXd OverlayLabels::closeness(double t) const {
+    constexpr int kSteps = 16;        // to either side
+    constexpr double kReach_s = 0.5;  // of film
+    constexpr double kStep_s = kReach_s / kSteps;
+    const auto count = static_cast<Eigen::Index>(pictures_.size());
+    Eigen::MatrixXd close = Eigen::MatrixXd::Zero(count, count);
+    std::vector<LabelWish> before, after;
+    for (int k = -kSteps; k <= kSteps; ++k) {
+        const double moment = t + k * kStep_s * scene_.film.speed;
+        after = wishes(std::clamp(moment, 0.0, motion_.duration));
+        const double weight = nearness(std::min(std::abs(k), std::abs(k - 1)) / double(kSteps));
+        for (Eigen::Index i = 0; i < count && !before.empty(); ++i) {
+            for (Eigen::Index j = i + 1; j < count; ++j) {
+                const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+                const double height = after[a].height + kBetween;
+                const double met = level(before[a].bottom_y - before[b].bottom_y,
+                                         after[a].bottom_y - after[b].bottom_y, height);
+                close(i, j) = std::max(close(i, j), weight * met);
+            }
+        }
+        before.swap(after);
+    }
+    return close;
+}
+
+void spread_labels(std::vector<LabelWish>& wishes, const Eigen::MatrixXd& close) {
+    const std::vector<LabelWish> balls = wishes;
+    constexpr int kTurns = 40;  // a row of a dozen labels has settled to a fraction of a pixel
+    for (int turn = 0; turn < kTurns; ++turn) {
+        for (std::size_t i = 0; i < wishes.size(); ++i) {
+            for (std::size_t j = i + 1; j < wishes.size(); ++j) {
+                const double share =
+                    close(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+                if (share == 0 || !balls[i].in_picture || !balls[j].in_picture) continue;
+                const double apart = 0.5 * (balls[i].width + balls[j].width) + kBetween + 1;
+                // In the order of their balls; each goes half of the way.
+                const double order = balls[j].center_x >= balls[i].center_x ? 1 : -1;
+                const double lacking =
+                    share * apart - order * (wishes[j].center_x - wishes[i].center_x);
+                if (lacking <= 0) continue;
+                wishes[i].center_x -= 0.5 * order * lacking;
+                wishes[j].center_x += 0.5 * order * lacking;
+            }
+        }
+    }
+}
+
+std::vector<LabelWish> OverlayLabels::spread_wishes(double t) const {
+    std::vector<LabelWish> wanted = wishes(t);
+    constexpr std::size_t kMany = 24;  // more names than anyone reads: not worth the time
+    if (wanted.size() > 1 && wanted.size() <= kMany) spread_labels(wanted, closeness(t));
+    return wanted;
+}
+
+std::vector<std::optional<LabelPlace>> OverlayLabels::place(
+    double t, const std::vector<Rect>& obstacles) const {
+    auto places = place_labels(spread_wishes(t), view_.width_px(), view_.height_px(), obstacles);
+    // What counts for the line is the distance from the ball, however the label came there.
+    const std::vector<LabelWish> balls = wishes(t);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!places[i]) continue;
+        const Rect& rect = places[i]->rect;
+        const double aside = std::abs(rect.x + 0.5 * rect.width - balls[i].center_x);
+        const double aloft = std::abs(rect.y + rect.height - balls[i].bottom_y);
+        places[i]->away = aside > 0.6 * rect.width || aloft > 0.8 * rect.height;
+    }
+    return places;
+}
+
+void OverlayLabels::draw(double t, const std::vector<Rect>& obstacles, Image& picture) const {
+    const std::vector<LabelWish> wanted = wishes(t);
+    const auto places = place(t, obstacles);
+    // Lines first, so that names stay legible above them.
+    std::optional<Canvas> canvas;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!places[i] || !places[i]->away) continue;
+        if (!canvas) canvas.emplace(picture);
+        const Rect& rect = places[i]->rect;
+        const bool above = rect.y < wanted[i].bottom_y;
+        cairo_move_to(canvas->context(), rect.x + 0.5 * rect.width,
+                      above ? rect.y + rect.height - gap_px_ : rect.y + gap_px_);
+        cairo_line_to(canvas->context(), wanted[i].center_x, wanted[i].bottom_y + gap_px_);
+    }
+    if (canvas) {
+        canvas->use({kSlate.r, kSlate.g, kSlate.b, 0.55});
+        cairo_set_line_width(canvas->context(), std::max(1.0, overlay_px(1, view_.height_px())));
+        cairo_stroke(canvas->context());
+        canvas->finish();
+    }
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (places[i]) lay_over(pictures_[i], places[i]->rect.x, places[i]->rect.y, picture);
+}
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+// The ruler: a graduated staff that stands in the scene beside the motion.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "render/camera.h"
+#include "render/font.h"
+#include "render/framing.h"
+
+namespace carom {
+
+enum class TickRank { kMajor, kMedium, kMinor };
+
+/// A mark of the scale, where its height projects to.
+struct RulerTick {
+    double height_m = 0;
+    Vec2 px = Vec2::Zero();
+    TickRank rank = TickRank::kMinor;
+    std::string label;  ///< of major ticks: the height in metres; else empty
+};
+
+/// What is drawn of a ruler: the part of the staff that the picture holds, with its ticks upwards.
+struct RulerLayout {
+    RulerStaff staff;
+    Vec2 low_px = Vec2::Zero();  ///< the lower end of the visible part
+    Vec2 high_px = Vec2::Zero();
+    double major_step_m = 1;
+    std::vector<RulerTick> ticks;
+};
+
+/// The scene's ruler where this view shows it: left of the motion, or right of it if only that side
+/// has room, or at the place that the scene names.
+std::optional<RulerStaff> stand_ruler(const Scene& scene, const Motion& motion, const View& view);
+
+/// Steps of 1, 2 or 5 times a power of ten, chosen so that numbers and ticks have room.
+/// Nothing if the staff is out of the picture.
+std::optional<RulerLayout> lay_out_ruler(const RulerStaff& staff, const View& view);
+
+/// A picture of the view's size with the ruler on transparent.
+Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font);
+
+/// Size of the ruler's numbers, px.
+double ruler_font_px(const View& view);
+
+}  // namespace carom

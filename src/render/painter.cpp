@@ -1,0 +1,219 @@
+#include "render/painter.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/check.h"
+#include "core/failure.h"
+#include "render/ball_billboards.h"
+#include "render/ball_shadows.h"
+#include "render/balls_in_view.h"
+#include "render/driver_clock.h"
+#include "render/offscreen.h"
+#include "render/overlay.h"
+#include "render/picture_layer.h"
+#include "render/static_picture.h"
+#include "render/surface_table.h"
+
+namespace carom {
+
+namespace {
+
+double median_radius(const Scene& scene) {
+    std::vector<double> radii;
+    for (const Ball& ball : scene.balls) radii.push_back(ball.radius);
+    if (radii.empty()) return 0;
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return *middle;
+}
+
+/// The picture looks the same whether the scene is a millimetre or a kilometre wide.
+PictureScale scale_of(const Scene& scene, const Camera& camera) {
+    const double distance = (camera.to - camera.from).norm();
+    const double radius = median_radius(scene);
+    PictureScale scale;
+    scale.fade_m = 5.0 * distance;
+    scale.ao_reach_m = radius > 0 ? 2.0 * radius : 0.05 * distance;
+    return scale;
+}
+
+}  // namespace
+
+class Painter::Impl {
+  public:
+    Impl(const Scene& scene, const Motion& motion, const PainterOptions& options)
+        : scene_(scene),
+          motion_(motion),
+          gl_(context_.gl()),
+          width_px_(options.width_px),
+          height_px_(options.height_px) {
+        CAROM_CHECK(width_px_, >, 0);
+        CAROM_CHECK(height_px_, >, 0);
+        check_size();
+        const double begin = clock_.now_s();
+        const double aspect = static_cast<double>(width_px_) / height_px_;
+        const Camera camera = choose_camera(scene, motion, aspect);
+        const View& view = view_.emplace(camera, width_px_, height_px_);
+        const Lights lights = choose_lights(view);
+        surfaces_ = make_surface_table(scene, view);
+
+        gl_.Disable(GL_DITHER);
+        gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+        gl_.Enable(GL_FRAMEBUFFER_SRGB);
+        color_ = make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA,
+                              GL_UNSIGNED_BYTE);
+        frame_ = make_framebuffer(gl_, "the picture", {&color_});
+        background_.emplace(gl_, view, lights, surfaces_, scale_of(scene, camera));
+        overlay_.emplace(scene, motion, view);
+        draw_static_layer();
+        if (overlay_->has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
+        if (surfaces_.count() > 0 && !scene.balls.empty())
+            shadows_.emplace(gl_, scene, view, lights);
+        balls_.emplace(gl_, scene, view, lights, surfaces_.can_occlude());
+        check_not_blank();
+        gl_.check("preparing the picture");
+        draw_cpu_s_ += clock_.now_s() - begin;
+    }
+
+    ~Impl() {
+        // The objects below are deleted in this context; destroying a context never throws.
+        try {
+            context_.make_current();
+        } catch (const Failure&) {
+        }
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void paint(double t, Image& out) {
+        const double begin = clock_.now_s();
+        context_.make_current();
+        if (out.width_px != width_px_ || out.height_px != height_px_)
+            out = Image(width_px_, height_px_);
+        copy_background();
+        const std::vector<BallInView> balls = balls_at(t, scene_, motion_, *view_);
+        if (shadows_) shadows_->draw(balls, *background_);
+        if (moving_layer_) draw_moving_layer(t);
+        balls_->draw(balls, *background_);
+        gl_.Finish();
+        const double drawn = clock_.now_s();
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_.name());
+        gl_.ReadPixels(0, 0, width_px_, height_px_, GL_BGRA, GL_UNSIGNED_BYTE, out.bgra.data());
+        gl_.check("drawing a frame");
+        const double read = clock_.now_s();
+        overlay_->draw_over(t, out);
+        draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
+        read_cpu_s_ += read - drawn;
+    }
+
+    std::string renderer() {
+        context_.make_current();
+        return context_.renderer();
+    }
+    std::map<std::string, DrawnEffect> effects() const;
+    double draw_cpu_s() const { return draw_cpu_s_; }
+    double read_cpu_s() const { return read_cpu_s_; }
+
+  private:
+    void check_size() const {
+        GLint largest = 0;
+        gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+        if (width_px_ <= largest && height_px_ <= largest) return;
+        throw Failure(FailureKind::kRun,
+                      fmt::format("a picture of {} x {} pixels is too large: the driver draws at "
+                                  "most {} x {}",
+                                  width_px_, height_px_, largest, largest));
+    }
+
+    void draw_static_layer() {
+        const Image layer = overlay_->static_under_layer();
+        if (layer.width_px == 0) return;
+        PictureLayer ruler(gl_, width_px_, height_px_);
+        ruler.update(layer, 0, 0, width_px_, height_px_);
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, background_->color_framebuffer().name());
+        ruler.draw();
+    }
+
+    void draw_moving_layer(double t) {
+        const OverlayPainter::Rect changed = overlay_->update_moving_under_layer(t);
+        if (!changed.empty())
+            moving_layer_->update(overlay_->moving_under_layer(), changed.x, changed.y,
+                                  changed.width, changed.height);
+        moving_layer_->draw();
+    }
+
+    void copy_background() {
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, background_->color_framebuffer().name());
+        gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_.name());
+        gl_.BlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px_, height_px_,
+                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl_.Viewport(0, 0, width_px_, height_px_);
+    }
+
+    /// Drivers are known that draw nothing and report no error. The picture is opaque.
+    void check_not_blank() {
+        copy_background();
+        std::uint8_t pixel[4] = {};
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_.name());
+        gl_.ReadPixels(width_px_ / 2, height_px_ / 2, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
+        if (pixel[3] != 255)
+            throw Failure(FailureKind::kRun, "the driver draws blank pictures and reports no error (" +
+                                                 context_.renderer() + ")");
+    }
+
+    const Scene& scene_;
+    const Motion& motion_;
+    OffscreenContext context_;  // outlives every owner of GL objects below
+    const Gl& gl_;
+    DriverClock clock_;
+    int width_px_, height_px_;
+    std::optional<View> view_;
+    SurfaceTable surfaces_;
+    GlTexture color_;
+    GlFramebuffer frame_;
+    std::optional<StaticPicture> background_;
+    std::optional<OverlayPainter> overlay_;
+    std::optional<PictureLayer> moving_layer_;
+    std::optional<BallShadows> shadows_;
+    std::optional<BallBillboards> balls_;
+    double draw_cpu_s_ = 0;
+    double read_cpu_s_ = 0;
+};
+
+std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
+    std::map<std::string, DrawnEffect> result;
+    const auto add = [&](const char* name, bool on, const char* why_on, const char* why_off) {
+        result[name] = {on, on ? why_on : why_off};
+    };
+    bool marked = false;
+    for (const Ball& ball : scene_.balls)
+        marked |= scene_.looks[static_cast<std::size_t>(ball.look)].style != LookStyle::kPlain;
+    const Overlay& overlay = scene_.overlay;
+    add("shadows", shadows_.has_value(), "balls over surfaces", "no ball, or no surface in view");
+    add("occlusion", surfaces_.can_occlude(), "bodies that balls can pass behind",
+        "nothing that a ball could pass behind");
+    add("markings", marked, "balls with a style", "all balls are plain");
+    add("ruler", overlay.ruler.has_value(), "the scene asks for it", "not asked for");
+    add("clock", overlay.clock.has_value(), "the scene asks for it", "not asked for");
+    add("labels", overlay.labels.has_value(), "the scene asks for it", "not asked for");
+    add("trail", moving_layer_.has_value(), "the scene asks for it", "not asked for");
+    return result;
+}
+
+Painter::Painter(const Scene& scene, const Motion& motion, const PainterOptions& options)
+    : impl_(std::make_unique<Impl>(scene, motion, options)) {}
+Painter::~Painter() = default;
+Painter::Painter(Painter&&) noexcept = default;
+Painter& Painter::operator=(Painter&&) noexcept = default;
+
+void Painter::paint(double t, Image& out) { impl_->paint(t, out); }
+std::string Painter::renderer() const { return impl_->renderer(); }
+std::map<std::string, Painter::DrawnEffect> Painter::effects() const { return impl_->effects(); }
+double Painter::draw_cpu_s() const { return impl_->draw_cpu_s(); }
+double Painter::read_cpu_s() const { return impl_->read_cpu_s(); }
+
+}  // namespace carom

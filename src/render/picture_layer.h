@@ -1,0 +1,39 @@
+// A picture drawn by cairo, laid over what is in the framebuffer: the ruler, the trails.
+#pragma once
+
+#include <vector>
+
+#include "core/image.h"
+#include "render/gl.h"
+
+namespace carom {
+
+/// Keeps a copy of the layer on the GL side and knows which of its tiles hold anything; nothing is
+/// uploaded or blended where the layer is empty or unchanged.
+class PictureLayer {
+  public:
+    /// Of the framebuffer's size. `gl` must outlive it.
+    PictureLayer(const Gl& gl, int width_px, int height_px);
+
+    /// Takes over a rectangle of `layer` [px], which has the layer's size; clipped to it.
+    void update(const Image& layer, int x, int y, int width, int height);
+
+    /// Blends the layer in linear light into the framebuffer that is bound; its alpha stays.
+    void draw();
+
+  private:
+    static constexpr int kTilePx = 32;
+    bool tile_is_empty(const Image& layer, int column, int row) const;
+
+    const Gl* gl_;
+    int width_px_, height_px_, columns_, rows_;
+    std::vector<bool> filled_;  ///< per tile
+    bool tiles_changed_ = false;
+    int filled_count_ = 0;
+    GlTexture texture_;
+    GlProgram program_;
+    GlVertexArray vertex_array_;
+    GlBuffer tile_buffer_;
+};
+
+}  // namespace carom

@@ -1,0 +1,110 @@
+// A sphere met by the pixel's ray, its markings, its light, and an analytic edge.
+//
+// With c = k d_ref + offset the centre and d the pixel's ray, w = k (d - d_ref) - offset is the
+// vector from the centre to a point of the ray, and u = w - d (w.d)/(d.d) the one to its nearest
+// point; all in radii. |u| = 1 is the outline. The surface is met at u - h d/|d|, h^2 = 1 - |u|^2.
+
+uniform samplerBuffer u_casters;
+#ifdef OCCLUDED
+uniform usampler2D u_facts;  // static_picture.h
+uniform sampler2D u_front;
+#endif
+
+flat in vec4 v_ray;      // pixel of d_ref, k, radius [m]
+flat in vec3 v_offset;
+flat in vec4 v_row_x;    // rows of ball-from-view; w: part of the key light that reaches the ball
+flat in vec3 v_row_y;
+flat in vec3 v_row_z;
+flat in vec4 v_contact;  // towards the nearest surface, 1 where it touches
+flat in ivec2 v_casters; // first, count
+
+out vec4 out_color;
+
+// Area of the part of a unit square that lies on the positive side of a line; x is the signed
+// distance of the square's middle from the line, n the line's unit normal.
+float square_part(float x, vec2 n) {
+    float a = max(abs(n.x), abs(n.y)), b = max(min(abs(n.x), abs(n.y)), 1e-3);
+    x = clamp(x, -1.0, 1.0);  // the square ends before; larger values would cancel badly
+    vec4 ends = max(vec4(x) + 0.5 * vec4(a + b, a - b, b - a, -a - b), 0.0);
+    ends *= ends;
+    return clamp((ends.x - ends.y - ends.z + ends.w) / (2.0 * a * b), 0.0, 1.0);
+}
+
+// Part of the pixel that the ball covers. `edge` is the distance of the outline outside the pixel's
+// middle, `size` the ball's radius, both in pixels.
+float coverage(float edge, float size, vec2 n) {
+    // The outline bends within the pixel: the mean sag of an arc under its chord of 1.
+    float bend = size > 0.5 ? 1.0 / (24.0 * size) : 0.0;
+    float covered = square_part(edge - bend, n);
+    // A ball smaller than a pixel: also the far side cuts, and only a disc of the strip is left.
+    if (size < 1.5) covered += square_part(2.0 * size - edge, n) - 1.0;
+    return clamp(covered, 0.0, 1.0) * min(1.0, 1.5707963 * size);
+}
+
+// Light on the point with normal n (view space) of a body of the given colour.
+vec3 lit(vec3 body, vec3 n, vec3 d_unit, float blur) {
+    float key = v_row_x.w, open = 1.0;
+    for (int i = 0; i < v_casters.y; ++i) {
+        vec4 caster = texelFetch(u_casters, v_casters.x + i);
+        vec3 rel = caster.xyz - n;
+        float along = dot(rel, u_light);
+        float across = length(rel - along * u_light);
+        if (along > 0.0) key *= 1.0 - hidden_by_ball(along, across, caster.w, blur);
+        float away2 = dot(rel, rel);
+        open *= 1.0 - 0.8 * max(dot(n, rel), 0.0) * inversesqrt(away2) *
+                          min(caster.w * caster.w / away2, 1.0);
+    }
+    // The nearest surface takes the light of its half of the world away, most where it touches.
+    float toward = 0.5 + 0.5 * dot(n, v_contact.xyz);
+    open *= 1.0 - 0.72 * v_contact.w * toward * toward;
+
+    vec3 light = kKey * (key * max(dot(n, u_light), 0.0)) + ambient_light(n) * open;
+    float shine = max(dot(n, normalize(u_light - d_unit)), 0.0);
+    return body * light + kKey * (kGloss.y * key * pow(shine, kGloss.x));
+}
+
+void main() {
+    vec3 d = ray_through(gl_FragCoord.xy);
+    float dd = dot(d, d);
+    vec3 w = v_ray.z * vec3((gl_FragCoord.xy - v_ray.xy) * u_pixel, 0.0) - v_offset;
+    float s = dot(w, d) / dd;
+    vec3 u = w - d * s;
+    float rho = length(u);
+
+    // Distance from the outline in pixels: rho changes by `slope` per pixel, along u.
+    float nearest_depth = v_ray.z - s;  // depth of the ray's nearest point, in radii
+    if (nearest_depth <= 0.0) discard;
+    float scale = nearest_depth * u_pixel;  // a pixel there, in radii
+    float flat_part = max(length(u.xy), 1e-6) / max(rho, 1e-6);
+    float slope = scale * flat_part;
+    float size = 1.0 / slope;
+    float alpha = coverage((1.0 - rho) * size, size, u.xy / max(length(u.xy), 1e-6));
+    if (alpha <= 0.0) discard;
+
+    // Shade the middle of what is covered, not a point that may lie beside the ball.
+    float inner = min(rho, max(1.0 - 0.3 * slope, 0.5));
+    u *= inner / max(rho, 1e-6);
+    float h = sqrt(1.0 - inner * inner);
+    float inverse_length = inversesqrt(dd);
+    vec3 d_unit = d * inverse_length;
+    vec3 n = u - d_unit * h;
+
+    // How far n moves to the next pixel: across the ray, and along it where the surface tilts away.
+    vec3 nx = scale * (vec3(1, 0, 0) + d_unit * (u.x / h));
+    vec3 ny = scale * (vec3(0, 1, 0) + d_unit * (u.y / h));
+    mat3 view_from_ball = mat3(v_row_x.xyz, v_row_y, v_row_z);
+    vec3 body = marking(n * view_from_ball, nx * view_from_ball, ny * view_from_ball);
+    vec3 color = min(lit(body, n, d_unit, scale), 1.0);
+
+#ifdef OCCLUDED
+    uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
+    float depth = v_ray.w * (nearest_depth - h * inverse_length);
+    float front_part = float(facts.z >> 20) / 1023.0;
+    if (depth > uintBitsToFloat(facts.y)) discard;
+    if (depth > uintBitsToFloat(facts.x)) {
+        // Within an edge of a body before the ball: the body keeps its share of the pixel.
+        color = mix(color, texelFetch(u_front, ivec2(gl_FragCoord.xy), 0).rgb, front_part);
+    }
+#endif
+    out_color = vec4(color * alpha, alpha);
+}

@@ -1,0 +1,55 @@
+// What the balls take from the light of a static pixel, as a factor of its colour.
+
+uniform usampler2D u_facts;  // static_picture.h
+uniform samplerBuffer u_casters;
+
+flat in ivec2 v_list;  // first caster, number of casters
+
+out vec4 out_factor;
+
+const float kAmbientReach2 = 9.0;  // squared, in radii (shadow_tiles.cpp)
+
+vec3 unpacked_normal(uint bits) {
+    vec2 p = vec2(bits & 0xffffu, bits >> 16) * (2.0 / 65535.0) - 1.0;
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    float under = max(-n.z, 0.0);
+    n.x += n.x < 0.0 ? under : -under;
+    n.y += n.y < 0.0 ? under : -under;
+    return normalize(n);
+}
+
+void main() {
+    uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
+    vec3 d = ray_through(gl_FragCoord.xy);
+    vec3 n = unpacked_normal(facts.w);
+    float direct = float(facts.z & 1023u) / 1023.0;
+    float ambient = float((facts.z >> 10) & 1023u) / 1023.0;
+    float front_part = float(facts.z >> 20) / 1023.0;
+
+    // Where an edge passes, both layers take their share; elsewhere there is one.
+    float factor = 1.0;
+    int layers = facts.x == facts.y ? 1 : 2;
+    for (int layer = 0; layer < layers; ++layer) {
+        float t = uintBitsToFloat(layer == 0 ? facts.x : facts.y);
+        float part = layers == 1 ? 1.0 : (layer == 0 ? front_part : 1.0 - front_part);
+        vec3 p = t * d;
+        float blur = t * u_pixel;
+        float key = 1.0, open = 1.0;
+        for (int i = 0; i < v_list.y; ++i) {
+            vec4 caster = texelFetch(u_casters, v_list.x + i);
+            vec3 rel = caster.xyz - p;
+            float along = dot(rel, u_light);
+            float away2 = dot(rel, rel);
+            float across = sqrt(max(away2 - along * along, 0.0));
+            float hidden = hidden_by_ball(along, across, caster.w, blur);
+            key *= along > 0.0 ? 1.0 - hidden : 1.0;
+            // The part of the sky, weighted by its cosine, behind a ball: n . d (r / distance)^2.
+            float near2 = min(caster.w * caster.w / away2, 1.0);
+            float fade = max(1.0 - away2 / (kAmbientReach2 * caster.w * caster.w), 0.0);
+            open *= 1.0 - 0.92 * fade * near2 * max(dot(n, rel), 0.0) * inversesqrt(away2);
+        }
+        // Nothing is shaded in the sky: there both parts are 0.
+        factor -= part * (direct * (1.0 - key) + ambient * (1.0 - open));
+    }
+    out_factor = vec4(vec3(factor), 1.0);
+}

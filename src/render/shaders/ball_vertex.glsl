@@ -1,0 +1,39 @@
+// The octagon around a ball, and what its pixels need to know.
+
+uniform vec2 u_size;  // pixels
+
+in vec4 a_bound;    // middle of the bound [px]; first caster, number of casters
+in vec4 a_axes;     // semi-axes of the bound [px]
+in vec4 a_ray;      // pixel of the reference ray; its depth at the centre / radius; radius [m]
+in vec4 a_offset;   // centre - reference point, in radii
+in vec4 a_row_x;    // rows of ball-from-view; w: part of the key light that reaches the ball
+in vec4 a_row_y;
+in vec4 a_row_z;
+in vec4 a_color;
+in vec4 a_second;
+in vec4 a_contact;  // towards the nearest surface, and how close it is
+
+flat out vec4 v_ray;
+flat out vec3 v_offset;
+flat out vec4 v_row_x;
+flat out vec3 v_row_y;
+flat out vec3 v_row_z;
+flat out vec3 v_color;
+flat out vec3 v_second;
+flat out vec4 v_contact;
+flat out ivec2 v_casters;
+
+void main() {
+    v_ray = a_ray;
+    v_offset = a_offset.xyz;
+    v_row_x = a_row_x;
+    v_row_y = a_row_y.xyz;
+    v_row_z = a_row_z.xyz;
+    v_color = a_color.rgb;
+    v_second = a_second.rgb;
+    v_contact = a_contact;
+    v_casters = ivec2(a_bound.zw);
+    float turn = (float(gl_VertexID) + 0.5) * 0.78539816339;
+    vec2 pixel = a_bound.xy + a_axes.xy * cos(turn) + a_axes.zw * sin(turn);
+    gl_Position = vec4(2.0 * pixel / u_size - 1.0, 0.0, 1.0);
+}

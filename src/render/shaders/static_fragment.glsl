@@ -1,0 +1,173 @@
+// The static picture: sky, planes to the horizon, boxes, spheres and capsules, with what the passes
+// of each frame need to know about it. Drawn once per camera.
+
+uniform float u_fade_m;      // distance at which planes have mostly melted into the horizon
+uniform float u_ao_reach_m;  // how far a crevice darkens
+
+out vec4 out_color;
+out vec4 out_front;   // colour of the nearer of two layers alone, where an edge passes
+out uvec4 out_facts;  // depth of the nearer layer, of the farther one; fractions; normal
+
+// Integral of a checker of period 2 over a box of width w around x, -1 ... 1.
+float filtered_wave(float x, float w) {
+    vec2 ends = fract(vec2(x - 0.5 * w, x + 0.5 * w) * 0.5) - 0.5;
+    return 2.0 * (abs(ends.x) - abs(ends.y)) / w;
+}
+
+// Part of a box of width w around x that lies on lines of the given width around the integers.
+float filtered_lines(float x, float w, float line) {
+    vec2 ends = vec2(x - 0.5 * w, x + 0.5 * w) + 0.5 * line;
+    vec2 covered = floor(ends) * line + min(fract(ends), line);
+    return (covered.y - covered.x) / w;
+}
+
+// The surface's colour at the pattern coordinate uv [m], seen through a pixel of the given extent.
+vec3 pattern(int item, vec2 uv, vec2 extent) {
+    vec4 first = surface(item, 4), second = surface(item, 5);
+    vec2 x = uv / second.w, w = max(extent / second.w, 1e-5);
+    // Beyond a few squares a pixel, a box filter still leaves moire: melt into the mean.
+    float melt = smoothstep(0.6, 2.0, max(w.x, w.y));
+    float part = 0.0;
+    if (first.w == 1.0) {
+        part = 0.5 - 0.5 * filtered_wave(x.x, w.x) * filtered_wave(x.y, w.y);
+        part = mix(part, 0.5, melt);
+    } else if (first.w == 2.0) {
+        const float kLine = 0.024;
+        float off = (1.0 - filtered_lines(x.x, w.x, kLine)) * (1.0 - filtered_lines(x.y, w.y, kLine));
+        part = mix(1.0 - off, 1.0 - (1.0 - kLine) * (1.0 - kLine), melt);
+    }
+    return mix(first.rgb, second.rgb, part);
+}
+
+// Pattern coordinates and their extent: how far the point on the face moves from pixel to pixel.
+vec3 albedo(Hit hit, vec3 d, float pixel) {
+    vec3 u = vec3(0.0), v = vec3(0.0);
+    vec2 origin = vec2(0.0);
+    bool is_plane = hit.item < u_counts.x;
+    bool is_box = !is_plane && hit.item < u_counts.x + u_counts.y;
+    if (is_plane) {
+        vec4 a = surface(hit.item, 6), b = surface(hit.item, 7);
+        u = a.xyz;
+        v = b.xyz;
+        origin = vec2(a.w, b.w);
+    } else if (is_box) {
+        vec4 a = surface(hit.item, 1 + (hit.axis + 1) % 3);
+        vec4 b = surface(hit.item, 1 + (hit.axis + 2) % 3);
+        vec3 center = surface(hit.item, 0).xyz;
+        u = a.xyz;
+        v = b.xyz;
+        origin = vec2(a.w - dot(a.xyz, center), b.w - dot(b.xyz, center));
+    } else {
+        return surface(hit.item, 4).rgb;
+    }
+    float facing = min(dot(hit.n, d), -1e-6);
+    vec3 dx = vec3(1, 0, 0) - d * (hit.n.x / facing);
+    vec3 dy = vec3(0, 1, 0) - d * (hit.n.y / facing);
+    vec2 extent = hit.t * pixel *
+                  vec2(length(vec2(dot(u, dx), dot(u, dy))), length(vec2(dot(v, dx), dot(v, dy))));
+    vec3 p = hit.t * d;
+    return pattern(hit.item, vec2(dot(u, p), dot(v, p)) + origin, extent);
+}
+
+// 1 in the open, less where other surfaces come close within reach of the normal.
+float open_sky(vec3 p, vec3 n, int item) {
+    float closed = 0.0;
+    for (int k = 1; k <= 4; ++k) {
+        float h = u_ao_reach_m * float(k * k) / 16.0;
+        float gap = clamp(nearest_distance(p + n * h, item), 0.0, h);
+        closed += (1.0 - gap / h) * 0.25;
+    }
+    return 1.0 - 0.75 * closed;
+}
+
+struct Shaded {
+    vec3 color;
+    float direct;   // part of the colour that is key light
+    float ambient;  // part that is ambient light
+};
+
+Shaded shade(Hit hit, vec3 d, float pixel, int first, int samples) {
+    if (hit.item < 0) return Shaded(background(d), 0.0, 0.0);
+    vec3 p = hit.t * d;
+    vec3 body = albedo(hit, d, pixel);
+    float facing = max(dot(hit.n, u_light), 0.0);
+    float visible = key_visibility(p + hit.n * (1e-4 * hit.t), hit.item, first, samples);
+    vec3 direct = body * kKey * (facing * visible);
+    vec3 ambient = body * ambient_light(hit.n) * open_sky(p, hit.n, hit.item);
+
+    float fade = 0.0;
+    if (hit.item < u_counts.x) {
+        float away = length(p) / u_fade_m;
+        fade = 1.0 - exp(-away * away);
+    }
+    vec3 color = mix(direct + ambient, background(d), fade);
+    const vec3 kLuma = vec3(0.2126, 0.7152, 0.0722);
+    float whole = max(dot(color, kLuma), 1e-6);
+    return Shaded(color, (1.0 - fade) * dot(direct, kLuma) / whole,
+                  (1.0 - fade) * dot(ambient, kLuma) / whole);
+}
+
+uint packed_unit(float x, int bits) {
+    return uint(clamp(x, 0.0, 1.0) * float((1 << bits) - 1) + 0.5);
+}
+
+// Octahedral map (Meyer et al., On floating-point normal vectors, 2010).
+uint packed_normal(vec3 n) {
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    if (n.z < 0.0)
+        p = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+    return packed_unit(0.5 + 0.5 * p.x, 16) | (packed_unit(0.5 + 0.5 * p.y, 16) << 16);
+}
+
+void main() {
+    // Sample 0 is the pixel's centre. Where it finds an edge, 16 more look for the depths of the two
+    // layers, and 64 more are averaged instead of it.
+    const int kProbes = 16, kSamples = 64;
+    vec3 color = vec3(0.0), front = vec3(0.0), n_near = vec3(0.0), n_far = vec3(0.0);
+    float direct = 0.0, ambient = 0.0, weight = 0.0, front_weight = 0.0;
+    float t_near = 0.0, t_far = 0.0, split = 0.0;
+    int last = 1;
+    for (int i = 0; i < last; ++i) {
+        vec2 at = vec2(0.0);
+        int fine = i - 1 - kProbes;
+        if (i > 0) {
+            int k = fine < 0 ? i - 1 : fine, edge = fine < 0 ? 4 : 8;
+            // Both grids reach equally far out: a line that cuts off a sample cuts off a probe.
+            at = (vec2(float(k % edge), float(k / edge)) / float(edge - 1) - 0.5) * 0.875;
+        }
+        vec3 d = ray_through(gl_FragCoord.xy + at);
+        Hit hit = nearest_surface(d);
+        bool whole = i == 0 && !hit.edge;
+        if (i == 0 && hit.edge) last = 1 + kProbes + kSamples;
+        int samples = whole ? 64 : (fine < 0 ? 0 : 8);
+        Shaded s = shade(hit, d, whole ? u_pixel : 0.25 * u_pixel, whole ? 0 : (fine & 7) * 8,
+                         samples);
+        if (i == 0) {
+            t_near = t_far = hit.t;
+            n_near = n_far = hit.n;
+        } else if (fine < 0) {
+            if (hit.t < t_near) n_near = hit.n;
+            if (hit.t > t_far) n_far = hit.n;
+            t_near = min(t_near, hit.t);
+            t_far = max(t_far, hit.t);
+        }
+        split = 0.5 * t_near + 0.5 * t_far;
+        if (whole || fine >= 0) {
+            color += s.color;
+            direct += s.direct;
+            ambient += s.ambient;
+            weight += 1.0;
+            if (whole || hit.t <= split) {
+                front += s.color;
+                front_weight += 1.0;
+            }
+        }
+    }
+    float front_part = front_weight / weight;
+    out_color = vec4(color / weight, 1.0);
+    out_front = vec4(front / max(front_weight, 1.0), 1.0);
+    out_facts = uvec4(floatBitsToUint(t_near), floatBitsToUint(t_far),
+                      packed_unit(direct / weight, 10) | (packed_unit(ambient / weight, 10) << 10) |
+                          (packed_unit(front_part, 10) << 20),
+                      packed_normal(front_part >= 0.5 ? n_near : n_far));
+}

@@ -1,0 +1,243 @@
+// Rays, shadows and distances of the static surfaces (surface_table.h says what a record holds).
+
+uniform samplerBuffer u_surfaces;
+uniform ivec4 u_counts;  // planes, boxes, spheres, capsules
+
+const float kFar = 1e30;
+// An edge is sought this many pixels around a pixel's centre: half a pixel's diagonal and some.
+const float kEdgeReach = 0.8;
+
+vec4 surface(int item, int slot) { return texelFetch(u_surfaces, item * 8 + slot); }
+
+struct Hit {
+    float t;      // depth, kFar for the sky
+    int item;     // record, -1 for the sky
+    vec3 n;       // unit, towards the eye
+    int axis;     // boxes: the face's axis
+    bool edge;    // an edge may pass through this pixel
+    vec2 slope;   // change of t to the neighbouring pixels
+};
+
+vec3 safe_direction(vec3 d) {
+    return mix(d, vec3(1e-9), lessThan(abs(d), vec3(1e-9)));
+}
+
+// Takes a nearer surface into `hit`. Two surfaces at nearly the same depth meet in this pixel.
+void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
+    vec2 slope = -t * u_pixel * n.xy / min(dot(n, d), -1e-6);
+    slope = abs(slope.x) + abs(slope.y) < kFar ? abs(slope) : vec2(kFar);
+    if (abs(t - hit.t) < kEdgeReach * (slope.x + slope.y + hit.slope.x + hit.slope.y))
+        hit.edge = true;
+    if (t < hit.t) {
+        hit.t = t;
+        hit.item = item;
+        hit.n = n;
+        hit.axis = axis;
+        hit.slope = slope;
+    }
+}
+
+void meet_planes(inout Hit hit, vec3 d) {
+    for (int i = 0; i < u_counts.x; ++i) {
+        vec4 plane = surface(i, 0);
+        float toward = dot(plane.xyz, d);
+        if (toward < -1e-7) take(hit, plane.w / toward, i, plane.xyz, 0, d);
+    }
+}
+
+void meet_boxes(inout Hit hit, vec3 d) {
+    for (int i = 0; i < u_counts.y; ++i) {
+        int item = u_counts.x + i;
+        vec4 center = surface(item, 0);
+        vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
+        vec3 half_edge = vec3(rx.w, ry.w, rz.w);
+        vec3 rd = safe_direction(vec3(dot(rx.xyz, d), dot(ry.xyz, d), dot(rz.xyz, d)));
+        vec3 ro = -vec3(dot(rx.xyz, center.xyz), dot(ry.xyz, center.xyz), dot(rz.xyz, center.xyz));
+        vec3 inverse_rd = 1.0 / rd;
+        vec3 middle = -ro * inverse_rd;
+        vec3 reach = abs(inverse_rd) * half_edge;
+        vec3 enter = middle - reach, leave = middle + reach;
+        float t_in = max(max(enter.x, enter.y), enter.z);
+        float t_out = min(min(leave.x, leave.y), leave.z);
+
+        // Would a box that is a pixel's width larger be met?
+        float depth = min(max(abs(t_in), abs(t_out)), length(center.xyz) + center.w);
+        vec3 wider = abs(inverse_rd) * (half_edge + kEdgeReach * u_pixel * depth);
+        vec3 enter_wide = middle - wider, leave_wide = middle + wider;
+        float wide_in = max(max(enter_wide.x, enter_wide.y), enter_wide.z);
+        float wide_out = min(min(leave_wide.x, leave_wide.y), leave_wide.z);
+        bool near_miss = wide_in < wide_out && wide_out > 0.0;
+
+        if (t_in < t_out && t_in > 0.0) {
+            int axis = enter.x == t_in ? 0 : (enter.y == t_in ? 1 : 2);
+            vec3 along = axis == 0 ? vec3(1, 0, 0) : (axis == 1 ? vec3(0, 1, 0) : vec3(0, 0, 1));
+            vec3 n_box = -sign(rd) * along;
+            vec3 n = n_box.x * rx.xyz + n_box.y * ry.xyz + n_box.z * rz.xyz;
+            // How far the point on the face moves from pixel to pixel, along each axis of the box.
+            float rd_axis = dot(rd, along);
+            vec3 px = vec3(rx.x, ry.x, rz.x), py = vec3(rx.y, ry.y, rz.y);
+            vec3 step_px = abs(px - rd * (dot(px, along) / rd_axis)) +
+                           abs(py - rd * (dot(py, along) / rd_axis));
+            vec3 inside = half_edge - abs(ro + t_in * rd) - kEdgeReach * u_pixel * t_in * step_px +
+                          along * kFar;
+            bool border = min(min(inside.x, inside.y), inside.z) < 0.0;
+            if (t_in < hit.t && border) hit.edge = true;
+            take(hit, t_in, item, n, axis, d);
+        } else if (near_miss && wide_in < hit.t) {
+            hit.edge = true;
+        }
+    }
+}
+
+void meet_spheres(inout Hit hit, vec3 d) {
+    float dd = dot(d, d);
+    for (int i = 0; i < u_counts.z; ++i) {
+        int item = u_counts.x + u_counts.y + i;
+        vec4 sphere = surface(item, 0);
+        float middle = dot(sphere.xyz, d) / dd;
+        vec3 across = sphere.xyz - d * middle;
+        float q = dot(across, across);
+        float reach = sphere.w * sphere.w - q;
+        float t = middle - sqrt(max(reach, 0.0) / dd);
+        if (abs(sqrt(q) - sphere.w) < kEdgeReach * u_pixel * middle && t < hit.t) hit.edge = true;
+        if (reach > 0.0 && t > 0.0)
+            take(hit, t, item, (t * d - sphere.xyz) / sphere.w, 0, d);
+    }
+}
+
+// Distance between the ray and the segment a ... a + b, as (distance, depth there).
+vec2 ray_to_segment(vec3 d, vec3 a, vec3 b) {
+    float dd = dot(d, d), bb = dot(b, b), db = dot(d, b);
+    float det = dd * bb - db * db;
+    float s = det > 1e-12 * dd * bb ? (db * dot(a, d) - dd * dot(a, b)) / det : 0.0;
+    vec3 p = a + clamp(s, 0.0, 1.0) * b;
+    float t = dot(p, d) / dd;
+    return vec2(length(p - t * d), t);
+}
+
+void meet_capsules(inout Hit hit, vec3 d) {
+    float dd = dot(d, d);
+    for (int i = 0; i < u_counts.w; ++i) {
+        int item = u_counts.x + u_counts.y + u_counts.z + i;
+        vec4 a = surface(item, 0);
+        vec3 b = surface(item, 1).xyz;
+        vec2 nearest = ray_to_segment(d, a.xyz, b);
+        // The cylinder: |p - axis|^2 = r^2, with everything projected across the axis.
+        float bb = max(dot(b, b), 1e-20);
+        float t = kFar;
+        vec3 d_across = d - b * (dot(d, b) / bb);
+        vec3 a_across = a.xyz - b * (dot(a.xyz, b) / bb);
+        float qa = dot(d_across, d_across);
+        float qb = dot(d_across, a_across);
+        float disc = qb * qb - qa * (dot(a_across, a_across) - a.w * a.w);
+        if (disc > 0.0 && qa > 1e-12) {
+            float t_side = (qb - sqrt(disc)) / qa;
+            float s = dot(t_side * d - a.xyz, b) / bb;
+            if (s >= 0.0 && s <= 1.0) t = t_side;
+        }
+        for (int end = 0; end < 2; ++end) {
+            vec3 c = a.xyz + float(end) * b;
+            float middle = dot(c, d) / dd;
+            vec3 across = c - d * middle;
+            float reach = a.w * a.w - dot(across, across);
+            if (reach > 0.0) t = min(t, middle - sqrt(reach / dd));
+        }
+        if (abs(nearest.x - a.w) < kEdgeReach * u_pixel * nearest.y && nearest.y - a.w < hit.t)
+            hit.edge = true;
+        if (t > 0.0 && t < kFar) {
+            vec3 p = t * d - a.xyz;
+            vec3 n = (p - b * clamp(dot(p, b) / bb, 0.0, 1.0)) / a.w;
+            take(hit, t, item, n, 0, d);
+        }
+    }
+}
+
+Hit nearest_surface(vec3 d) {
+    Hit hit = Hit(kFar, -1, vec3(0.0, 0.0, -1.0), 0, false, vec2(0.0));
+    meet_planes(hit, d);
+    meet_boxes(hit, d);
+    meet_spheres(hit, d);
+    meet_capsules(hit, d);
+    return hit;
+}
+
+// Part of the key light that reaches p past the static bodies. Planes cast no shadow: a wall between
+// the lamp and the scene would put everything in the dark.
+// Boxes are sampled over the lamp's disc with `samples` rays, beginning at `first` of 64.
+float key_visibility(vec3 p, int own, int first, int samples) {
+    float visible = 1.0;
+    vec3 side = normalize(abs(u_light.x) < 0.7 ? cross(u_light, vec3(1, 0, 0))
+                                               : cross(u_light, vec3(0, 1, 0)));
+    vec3 side2 = cross(u_light, side);
+    for (int i = 0; i < u_counts.y; ++i) {
+        int item = u_counts.x + i;
+        vec4 center = surface(item, 0);
+        vec3 rel = center.xyz - p;
+        float along = dot(rel, u_light);
+        bool near = length(rel - along * u_light) < center.w + max(along, 0.0) * u_light_tan &&
+                    along > -center.w && item != own;
+        int n = near ? samples : 0;
+        vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
+        vec3 half_edge = vec3(rx.w, ry.w, rz.w);
+        vec3 ro = -vec3(dot(rx.xyz, rel), dot(ry.xyz, rel), dot(rz.xyz, rel));
+        float hidden = 0.0;
+        for (int k = 0; k < n; ++k) {
+            // Sunflower spiral: even over the disc for any count.
+            float place = float(first + k) + 0.5;
+            float turn = place * 2.39996323;
+            vec2 disc = sqrt(fract(place / 64.0)) * u_light_tan * vec2(cos(turn), sin(turn));
+            vec3 l = u_light + disc.x * side + disc.y * side2;
+            vec3 rd = safe_direction(vec3(dot(rx.xyz, l), dot(ry.xyz, l), dot(rz.xyz, l)));
+            vec3 middle = -ro / rd, reach = abs(half_edge / rd);
+            vec3 enter = middle - reach, leave = middle + reach;
+            float t_in = max(max(enter.x, enter.y), enter.z);
+            float t_out = min(min(leave.x, leave.y), leave.z);
+            hidden += t_in < t_out && t_out > 0.0 ? 1.0 : 0.0;
+        }
+        visible *= 1.0 - hidden / float(max(n, 1));
+    }
+    for (int i = 0; i < u_counts.z; ++i) {
+        int item = u_counts.x + u_counts.y + i;
+        vec4 sphere = surface(item, 0);
+        vec3 rel = sphere.xyz - p;
+        float along = dot(rel, u_light);
+        if (item != own && along > 0.0)
+            visible *= 1.0 - hidden_by_ball(along, length(rel - along * u_light), sphere.w, 0.0);
+    }
+    for (int i = 0; i < u_counts.w; ++i) {
+        int item = u_counts.x + u_counts.y + u_counts.z + i;
+        vec4 a = surface(item, 0);
+        vec2 nearest = ray_to_segment(u_light, a.xyz - p, surface(item, 1).xyz);
+        if (item != own && nearest.y > 0.0)
+            visible *= 1.0 - hidden_by_ball(nearest.y, nearest.x, a.w, 0.0);
+    }
+    return visible;
+}
+
+// Distance from p to the nearest surface other than `own` (negative inside).
+float nearest_distance(vec3 p, int own) {
+    float nearest = kFar;
+    int planes = u_counts.x, boxes = planes + u_counts.y, spheres = boxes + u_counts.z;
+    for (int i = 0; i < spheres + u_counts.w; ++i) {
+        vec4 a = surface(i, 0);
+        float distance_i = kFar;
+        if (i < planes) {
+            distance_i = dot(a.xyz, p) - a.w;
+        } else if (i < boxes) {
+            vec4 rx = surface(i, 1), ry = surface(i, 2), rz = surface(i, 3);
+            vec3 rel = p - a.xyz;
+            vec3 q = abs(vec3(dot(rx.xyz, rel), dot(ry.xyz, rel), dot(rz.xyz, rel))) -
+                     vec3(rx.w, ry.w, rz.w);
+            distance_i = length(max(q, 0.0)) + min(max(max(q.x, q.y), q.z), 0.0);
+        } else if (i < spheres) {
+            distance_i = length(p - a.xyz) - a.w;
+        } else {
+            vec3 b = surface(i, 1).xyz;
+            vec3 rel = p - a.xyz;
+            distance_i =
+                length(rel - b * clamp(dot(rel, b) / max(dot(b, b), 1e-20), 0.0, 1.0)) - a.w;
+        }
+        if (i != own) nearest = min(nearest, distance_i);
+    }
+    return nearest;
+}

@@ -1,0 +1,64 @@
+// Which shadow may fall where: the pictures of the balls' shadows, sorted into tiles of the screen.
+#pragma once
+
+#include <vector>
+
+#include "render/balls_in_view.h"
+#include "render/lights.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// For every tile that some shadow may touch, the balls that cast it. Nothing is missed: bounds are
+/// generous by up to a tile.
+class ShadowTiles {
+  public:
+    static constexpr int kTilePx = 16;
+
+    /// `scene` must outlive it.
+    ShadowTiles(const Scene& scene, const View& view, const Lights& lights);
+
+    /// Per non-empty tile: column, row, first caster, number of casters (whole numbers in floats).
+    const std::vector<float>& tiles() const { return tiles_; }
+    /// Centre (view space) and radius of each caster, tile after tile.
+    const std::vector<float>& casters() const { return casters_; }
+
+    void update(const std::vector<BallInView>& balls);
+
+  private:
+    struct Plane {
+        Vec3 normal = Vec3::UnitZ();  ///< view space
+        double offset = 0;
+    };
+    struct Body {
+        Vec3 center = Vec3::Zero();  ///< view space
+        double radius = 0;           ///< around everything
+        int first_column = 0, last_column = -1, first_row = 0, last_row = -1;  ///< tiles it is seen in
+    };
+    struct Window {
+        int first_column, last_column, first_row, last_row;
+    };
+
+    void add_plane(const PlaneShape& plane, const View& view);
+    void add_body(const Vec3& center, double radius, const View& view);
+    void cast_on_plane(const Plane& plane, const BallInView& ball);
+    void cast_on_body(const Body& body, const BallInView& ball);
+    /// Marks the tiles of `window` that the hull of the points covers for the current caster.
+    void mark_hull(const std::vector<Vec3>& points, const Window& window);
+    Window bound_of(const std::vector<Vec3>& points) const;
+    std::vector<Vec2> project(const std::vector<Vec3>& points) const;
+    Window whole() const { return {0, columns_ - 1, 0, rows_ - 1}; }
+
+    Vec3 to_light_;      ///< view space
+    double tan_radius_;
+    double pixel_width_;
+    Vec2 middle_px_;
+    int columns_, rows_;
+    std::vector<Plane> planes_;
+    std::vector<Body> bodies_;
+    int caster_ = -1;                       ///< being marked
+    std::vector<std::vector<int>> marked_;  ///< per tile, casters in order
+    std::vector<float> tiles_, casters_;
+};
+
+}  // namespace carom

@@ -1,0 +1,39 @@
+// What does not move: drawn once per camera, copied below every frame.
+#pragma once
+
+#include "render/gl.h"
+#include "render/lights.h"
+#include "render/surface_table.h"
+
+namespace carom {
+
+/// Lengths that the picture's atmosphere scales with, metres.
+struct PictureScale {
+    double fade_m = 50;      ///< distance at which planes melt into the horizon
+    double ao_reach_m = 0.3; ///< how far a crevice darkens its surroundings
+};
+
+/// The static picture and, per pixel, what the passes of a frame need to know about it.
+class StaticPicture {
+  public:
+    /// Draws it. `gl` must outlive it.
+    StaticPicture(const Gl& gl, const View& view, const Lights& lights, const SurfaceTable& table,
+                  const PictureScale& scale);
+
+    /// A framebuffer with the colours alone: the source of each frame's copy, and the place where
+    /// layers that do not move may be drawn once.
+    const GlFramebuffer& color_framebuffer() const { return color_framebuffer_; }
+
+    /// RGBA32UI: bits of the depth of the nearer and of the farther layer; 10 bits each of the parts
+    /// of the colour that are key light and ambient light, and of the nearer layer's share of the
+    /// pixel; normal, octahedral, 2 x 16 bits. Row 0 is the picture's top.
+    const GlTexture& facts() const { return facts_; }
+    /// Colour of the nearer layer alone.
+    const GlTexture& front() const { return front_; }
+
+  private:
+    GlTexture color_, front_, facts_;
+    GlFramebuffer color_framebuffer_;
+};
+
+}  // namespace carom

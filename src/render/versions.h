@@ -1,0 +1,11 @@
+// Versions of the libraries that this folder names.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace carom {
+
+std::map<std::string, std::string> render_versions();
+
+}  // namespace carom

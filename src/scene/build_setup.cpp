@@ -1,0 +1,197 @@
+// Simulation, film, camera and overlay.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "scene/build.h"
+#include "scene/scalar.h"
+
+namespace carom {
+
+namespace {
+
+/// Empty for `duration: rest`.
+std::optional<double> read_duration(const Fields& fields) {
+    const Node* node = fields.find("duration");
+    if (node != nullptr && node->text == "rest") return std::nullopt;
+    return fields.number("duration");
+}
+
+void build_simulation(Build& build) {
+    const Fields fields = build.top().child("simulation");
+    Simulation& simulation = build.scene.simulation;
+    simulation.duration = read_duration(fields);
+    simulation.max_duration = fields.number("max_duration");
+    simulation.gravity = fields.vec3("gravity");
+    simulation.restitution_constant = fields.number("restitution_constant");
+    simulation.method = fields.word("method") == "exact" ? Method::kExact : Method::kFixed;
+    simulation.step = fields.number("step");
+    simulation.solver = fields.word("solver") == "quick" ? Solver::kQuick : Solver::kWorld;
+    simulation.iterations = fields.integer("iterations");
+}
+
+/// The fraction with the smallest denominator that is `value` to 12 digits, by continued fractions:
+/// 23.976 is 2997/125. Frame times are computed from it, so that they do not drift.
+FrameRate frame_rate(double value) {
+    constexpr double kSameValue = 1e-12;  // relative; finer than anyone writes a frame rate
+    constexpr double kLargest = 1e9;      // fits an int
+    double h0 = 0, h1 = 1, k0 = 1, k1 = 0, rest = value;
+    for (int i = 0; i < 40; ++i) {
+        const double whole = std::floor(rest);
+        const double h2 = whole * h1 + h0, k2 = whole * k1 + k0;
+        if (h2 > kLargest || k2 > kLargest) break;
+        h0 = h1, h1 = h2, k0 = k1, k1 = k2;
+        if (std::abs(h1 / k1 - value) <= kSameValue * value || rest == whole) break;
+        rest = 1 / (rest - whole);
+    }
+    return {static_cast<int>(h1), static_cast<int>(k1)};
+}
+
+FrameRate read_frame_rate(const Fields& fields) {
+    const Node* node = fields.find("fps");
+    const std::size_t slash = node == nullptr ? std::string::npos : node->text.find('/');
+    if (slash == std::string::npos) return frame_rate(fields.number("fps"));
+    const int numerator = std::stoi(node->text.substr(0, slash));
+    const int denominator = std::stoi(node->text.substr(slash + 1));
+    const int common = std::gcd(numerator, denominator);
+    return {numerator / common, denominator / common};
+}
+
+/// Where the motion ends at the latest, s; none if the file is wrong about it.
+std::optional<double> last_instant(const Build& build) {
+    const Node* simulation = build.root.find("simulation");
+    if (simulation != nullptr && !simulation->valid) return std::nullopt;
+    return build.scene.simulation.duration.value_or(build.scene.simulation.max_duration);
+}
+
+void check_film_times(Build& build, const Fields& fields) {
+    const std::optional<double> end = last_instant(build);
+    if (!end) return;
+    const Node* start = fields.find("start");
+    if (start != nullptr && node_number(*start) >= *end)
+        build.report.error(*start,
+                           fmt::format("the film starts at {} s, but the motion lasts {} s: "
+                                       "there would be no frames",
+                                       start->text, number_text(*end)));
+    constexpr double kMostFrames = 1e9;  // frame numbers are ints
+    const Film& film = build.scene.film;
+    const double frames = (*end - film.start) * film.fps.per_second() / film.speed;
+    const Node* film_node = build.root.find("film");
+    if (frames > kMostFrames && film_node != nullptr && film_node->valid)
+        build.report.error(*film_node,
+                           fmt::format("the film would have {:.3g} frames; at most {:.0f} "
+                                       "are possible",
+                                       frames, kMostFrames));
+    const Node* stills = fields.find("stills");
+    if (stills == nullptr) return;
+    for (const Node& still : stills->children)
+        if (node_number(still) > *end)
+            build.report.error(still, fmt::format("the still at {} s is outside the motion, which "
+                                                  "lasts {} s",
+                                                  still.text, number_text(*end)));
+}
+
+void build_film(Build& build) {
+    constexpr double kMostPixels = 100e6;
+    const Fields fields = build.top().child("film");
+    Film& film = build.scene.film;
+    const Vec2 size = fields.vec2("size");
+    film.width_px = static_cast<int>(size.x());
+    film.height_px = static_cast<int>(size.y());
+    if (size.prod() > kMostPixels)
+        build.report.error(*fields.find("size"),
+                           fmt::format("a frame of {} x {} has {:.0f} million pixels; at most 100 "
+                                       "million are possible",
+                                       film.width_px, film.height_px, size.prod() / 1e6));
+    film.fps = read_frame_rate(fields);
+    film.start = fields.number("start");
+    film.speed = fields.number("speed");
+    if (const Node* stills = fields.find("stills"))
+        for (const Node& still : stills->children) film.stills.push_back(node_number(still));
+    check_film_times(build, fields);
+}
+
+void build_camera(Build& build) {
+    const Node* node = build.root.find("camera");
+    if (node == nullptr || node->kind != Node::Kind::kMap) return;
+    const Fields fields = build.top().child("camera");
+    if (!fields.has("from") || !fields.has("to")) return;  // reported by the validator
+    Camera camera;
+    camera.from = fields.vec3("from");
+    camera.to = fields.vec3("to");
+    camera.up = fields.vec3("up");
+    camera.fov_deg = fields.number("fov_deg");
+
+    constexpr double kShortest = 1e-9;  // m; shorter counts as 0
+    constexpr double kParallel = 1e-6;  // rad; below it the horizon is rounding noise
+    const Vec3 view = camera.to - camera.from;
+    const Vec3 up = camera.up.normalized();
+    const Node* up_node = fields.find("up");
+    const Node& blamed = up_node != nullptr ? *up_node : *node;
+    if (view.norm() < kShortest)
+        build.report.error(*fields.find("to"), "the camera's 'from' and 'to' are the same point");
+    else if (camera.up.norm() < kShortest)
+        build.report.error(blamed, "the camera's 'up' has length 0");
+    else if (view.normalized().cross(up).norm() < kParallel)
+        build.report.error(blamed, fmt::format("the camera looks along 'up' ({}); give it another "
+                                               "'up', such as [0, 1, 0]",
+                                               up_node != nullptr ? "from the file" : "[0, 0, 1]"));
+    build.scene.camera = camera;
+}
+
+/// Options of one overlay: none for `false`, and the defaults for `true`.
+std::optional<Fields> overlay_options(const Fields& overlay, const char* key) {
+    const Node* node = overlay.find(key);
+    if (node == nullptr) return std::nullopt;
+    const bool is_map = node->kind == Node::Kind::kMap;
+    if (!is_map && !resolve_scalar(node->text, node->quoted).boolean) return std::nullopt;
+    return overlay.child(key);
+}
+
+Corner parse_corner(const std::string& word) {
+    if (word == "top_right") return Corner::kTopRight;
+    if (word == "bottom_left") return Corner::kBottomLeft;
+    return word == "bottom_right" ? Corner::kBottomRight : Corner::kTopLeft;
+}
+
+RulerOptions read_ruler(Build& build, const Fields& fields) {
+    RulerOptions ruler;
+    if (fields.has("at")) ruler.at = fields.vec2("at");
+    ruler.from = fields.number("from");
+    ruler.to = fields.maybe_number("to");
+    if (ruler.to && *ruler.to <= ruler.from)
+        build.report.error(*fields.find("to"),
+                           fmt::format("the ruler's 'to' ({} m) must lie above its 'from' ({} m)",
+                                       number_text(*ruler.to), number_text(ruler.from)));
+    return ruler;
+}
+
+void build_overlay(Build& build) {
+    const Fields fields = build.top().child("overlay");
+    Overlay& overlay = build.scene.overlay;
+    if (const auto ruler = overlay_options(fields, "ruler"))
+        overlay.ruler = read_ruler(build, *ruler);
+    if (const auto clock = overlay_options(fields, "clock"))
+        overlay.clock = {parse_corner(clock->word("corner")), clock->integer("digits")};
+    if (const auto trail = overlay_options(fields, "trail")) {
+        overlay.trail = TrailOptions{};
+        overlay.trail->seconds =
+            trail->maybe_number("seconds").value_or(std::numeric_limits<double>::infinity());
+        overlay.trail->width_px = trail->number("width_px");
+    }
+    if (const auto labels = overlay_options(fields, "labels"))
+        overlay.labels = {labels->number("size_px")};
+}
+
+}  // namespace
+
+void build_setup(Build& build) {
+    build.scene.title = build.top().maybe_word("title").value_or("");
+    build_simulation(build);
+    build_film(build);
+    build_camera(build);
+    build_overlay(build);
+}
+
+}  // namespace carom

@@ -1,0 +1,119 @@
+// Static bodies.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/build.h"
+#include "scene/looks.h"
+
+namespace carom {
+
+namespace {
+
+/// Shorter directions count as 0: nobody writes them, and dividing by them loses all digits.
+constexpr double kShortest = 1e-9;
+
+/// What a shape's keys gave, and whether they are fit for a search for overlaps.
+struct ReadShape {
+    SurfaceShape shape;
+    bool sound = true;
+};
+
+ReadShape read_plane(Build& build, const Fields& fields, const Node& node) {
+    const Vec3 normal = fields.vec3("normal");
+    PlaneShape plane;
+    if (normal.norm() < kShortest) {
+        const Node* normal_node = fields.find("normal");
+        build.report.error(normal_node != nullptr ? *normal_node : node,
+                           "the plane's normal has length 0");
+        return {plane, false};
+    }
+    // normal . p = offset holds for the normal as given, so the offset shrinks with its length.
+    plane.normal = normal.normalized();
+    plane.offset_m = fields.number("offset") / normal.norm();
+    return {plane, node.valid};
+}
+
+/// About x, then y, then z, the axes fixed: R = Rz Ry Rx.
+Quat rotation(const Vec3& degrees) {
+    const Vec3 angles = degrees * (std::numbers::pi / 180);
+    return Quat(Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
+                Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
+                Eigen::AngleAxisd(angles.x(), Vec3::UnitX()));
+}
+
+ReadShape read_box(Build& build, const Fields& fields, const Node& node) {
+    BoxShape box;
+    box.center = fields.vec3("position");
+    if (fields.has("size")) box.size = fields.vec3("size");
+    box.orientation = rotation(fields.vec3("rotation_deg"));
+    if (const Node* quaternion = fields.find("quaternion")) {
+        Eigen::Vector4d wxyz;
+        for (int i = 0; i < 4; ++i)
+            wxyz[i] = node_number(quaternion->children[static_cast<std::size_t>(i)]);
+        if (wxyz.norm() < kShortest) {
+            build.report.error(*quaternion, "the box's quaternion has length 0");
+            return {box, false};
+        }
+        wxyz.normalize();
+        box.orientation = Quat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+    }
+    return {box, node.valid};
+}
+
+ReadShape read_sphere(const Fields& fields, const Node& node) {
+    return {SphereShape{fields.vec3("position"), fields.maybe_number("radius").value_or(1)},
+            node.valid};
+}
+
+ReadShape read_capsule(Build& build, const Fields& fields, const Node& node) {
+    if (!fields.has("from") || !fields.has("to")) return {CapsuleShape{}, false};
+    const CapsuleShape capsule{fields.vec3("from"), fields.vec3("to"),
+                               fields.maybe_number("radius").value_or(1)};
+    if ((capsule.to - capsule.from).norm() < kShortest) {
+        build.report.error(*fields.find("to"),
+                           "the capsule's 'from' and 'to' are the same point; a sphere is written "
+                           "'sphere: {position: [...], radius: ...}'");
+        return {capsule, false};
+    }
+    return {capsule, node.valid};
+}
+
+ReadShape read_shape(Build& build, const Node& surface) {
+    const Fields fields = build.fields(Section::kSurface, &surface);
+    if (const Node* node = surface.find("plane"))
+        return read_plane(build, fields.child("plane"), *node);
+    if (const Node* node = surface.find("box")) return read_box(build, fields.child("box"), *node);
+    if (const Node* node = surface.find("sphere"))
+        return read_sphere(fields.child("sphere"), *node);
+    if (const Node* node = surface.find("capsule"))
+        return read_capsule(build, fields.child("capsule"), *node);
+    return {PlaneShape{}, false};
+}
+
+}  // namespace
+
+void build_surfaces(Build& build) {
+    for (const Node& node : build.entries("surfaces")) {
+        if (node.kind != Node::Kind::kMap) continue;
+        const Fields fields = build.fields(Section::kSurface, &node);
+        const ReadShape read = read_shape(build, node);
+        Surface surface;
+        surface.name = fields.maybe_word("name").value_or("");
+        surface.shape = read.shape;
+        surface.mark = node.mark;
+        if (const Node* material = fields.find("material"))
+            surface.material = resolve_material(build, *material);
+        const Node* look = fields.find("look");
+        surface.look = look == nullptr ? -1 : resolve_look(build, *look);
+        if (surface.look < 0)
+            surface.look = std::holds_alternative<PlaneShape>(surface.shape)
+                               ? default_look(build, "planes", default_plane_look())
+                               : default_look(build, "solids", default_solid_look());
+        build.scene.surfaces.push_back(std::move(surface));
+        build.surface_origins.push_back({&node, read.sound});
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,57 @@
+// What stands around the rows of the table: rules between keys, and what sections are.
+#include "scene/keys.h"
+
+namespace carom {
+
+std::vector<Rule> key_rules() {
+    using enum Section;
+    return {
+        {kMaterial, Rule::Kind::kAtMostOne, {"restitution", "virtual_body"}},
+        {kVirtualBody, Rule::Kind::kAboveZeroWith, {"distance", "velocity"}},
+        {kPair, Rule::Kind::kAtLeastOne, {"restitution", "friction"}},
+        {kSurface, Rule::Kind::kExactlyOne, {"plane", "box", "sphere", "capsule"}},
+        {kBox, Rule::Kind::kAtMostOne, {"rotation_deg", "quaternion"}},
+        {kBall, Rule::Kind::kAtMostOne, {"position", "drop_height"}},
+        {kBall, Rule::Kind::kAtMostOne, {"position", "at"}},
+    };
+}
+
+std::vector<SectionDoc> section_docs() {
+    using enum Section;
+    return {
+        {kScene, "scene", "", "The keys of the file."},
+        {kSimulation, "simulation", "simulation", "How the motion is computed."},
+        {kMaterial, "material", "materials.NAME",
+         "What a material does in contact; the rule for a pair is the product of both numbers."},
+        {kVirtualBody, "virtual_body", "materials.NAME.virtual_body",
+         "The paper's virtual body; its coefficient against a rigid body is "
+         "exp(-K distance / (2 velocity))."},
+        {kPair, "pair", "pairs[]",
+         "Replaces the product of two materials' numbers by what is measured."},
+        {kLook, "look", "looks.NAME", "Colours and markings."},
+        {kSurface, "surface", "surfaces[]", "A static body: one shape, a material, a look."},
+        {kPlane, "plane", "surfaces[].plane",
+         "The points p with normal . p = offset; balls live on the side that the normal points "
+         "to."},
+        {kBox, "box", "surfaces[].box", "A solid box."},
+        {kSphere, "sphere", "surfaces[].sphere", "A solid sphere."},
+        {kCapsule, "capsule", "surfaces[].capsule", "All points within `radius` of a segment."},
+        {kDefaults, "defaults", "defaults", "What fills in for values that are left out."},
+        {kBallDefaults, "ball_defaults", "defaults.ball",
+         "Fills what a ball, and the preset that the ball names, leave out. The keys are those of "
+         "`balls[]`:"},
+        {kBall, "ball", "balls[]", "A ball, or with `repeat` a grid of equal ones."},
+        {kRepeat, "repeat", "balls[].repeat",
+         "A grid of balls named NAME_i_j_k, i along x, j along y, k along z, each counted from 0."},
+        {kCamera, "camera", "camera", "A pinhole camera that stands still."},
+        {kFilm, "film", "film",
+         "Size and timing of the film; frame n shows start + speed n / fps."},
+        {kOverlay, "overlay", "overlay", "Each is `false`, `true`, or a mapping with options."},
+        {kRuler, "ruler", "overlay.ruler", "A vertical scale in metres."},
+        {kClock, "clock", "overlay.clock", "The time of the motion in seconds."},
+        {kTrail, "trail", "overlay.trail", "The path of each ball's centre."},
+        {kLabels, "labels", "overlay.labels", "The balls' names."},
+    };
+}
+
+}  // namespace carom

@@ -1,0 +1,192 @@
+#include "scene/overlap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+
+namespace carom {
+
+namespace {
+
+double distance_to(const PlaneShape& plane, const Vec3& p) {
+    return plane.normal.dot(p) - plane.offset_m;
+}
+
+double distance_to(const SphereShape& sphere, const Vec3& p) {
+    return (p - sphere.center).norm() - sphere.radius;
+}
+
+double distance_to(const CapsuleShape& capsule, const Vec3& p) {
+    const Vec3 axis = capsule.to - capsule.from;
+    const double t = std::clamp((p - capsule.from).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
+    return (p - capsule.from - t * axis).norm() - capsule.radius;
+}
+
+double distance_to(const BoxShape& box, const Vec3& p) {
+    const Vec3 local = box.orientation.conjugate() * (p - box.center);
+    const Vec3 beyond = local.cwiseAbs() - box.size / 2;
+    return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+/// Half the extent of a shape along x; infinite for planes.
+std::array<double, 2> extent_x(const SurfaceShape& shape) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape))
+        return {sphere->center.x() - sphere->radius, sphere->center.x() + sphere->radius};
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
+        return {std::min(capsule->from.x(), capsule->to.x()) - capsule->radius,
+                std::max(capsule->from.x(), capsule->to.x()) + capsule->radius};
+    if (const auto* box = std::get_if<BoxShape>(&shape)) {
+        const double half = box->size.norm() / 2;
+        return {box->center.x() - half, box->center.x() + half};
+    }
+    const double infinity = std::numeric_limits<double>::infinity();
+    return {-infinity, infinity};
+}
+
+double size_of_other(const SurfaceShape& shape, double ball_radius) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape))
+        return std::min(sphere->radius, ball_radius);
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
+        return std::min(capsule->radius, ball_radius);
+    return ball_radius;
+}
+
+/// A grid with one level per power of two, so that small balls among large ones stay cheap. A ball
+/// lives in the level whose cells are 2 r ... 4 r wide, in the cell of its centre.
+class BallGrid {
+  public:
+    BallGrid(const Scene& scene, const std::vector<bool>& sound) : scene_(scene) {
+        for (std::size_t i = 0; i < scene.balls.size(); ++i)
+            if (sound[i]) entries_.push_back(entry(static_cast<int>(i)));
+        std::sort(entries_.begin(), entries_.end());
+        for (const Entry& e : entries_)
+            if (levels_.empty() || levels_.back() != e.level) levels_.push_back(e.level);
+    }
+
+    void collect(std::vector<BallOverlap>& found) const {
+        for (const Entry& e : entries_)
+            for (const int level : levels_)
+                if (level >= e.level && !collect_near(e, level, found)) return;
+    }
+
+  private:
+    struct Entry {
+        int level;
+        std::int64_t x, y, z;
+        int ball;
+        auto operator<=>(const Entry&) const = default;
+    };
+
+    const Ball& ball(int index) const { return scene_.balls[static_cast<std::size_t>(index)]; }
+
+    static std::int64_t cell(double coordinate, int level) {
+        return static_cast<std::int64_t>(std::floor(std::ldexp(coordinate, -level)));
+    }
+
+    Entry entry(int index) const {
+        const Ball& b = ball(index);
+        const int level = std::ilogb(b.radius) + 2;
+        return at_level(b, level, index);
+    }
+
+    static Entry at_level(const Ball& b, int level, int index) {
+        return {level, cell(b.position.x(), level), cell(b.position.y(), level),
+                cell(b.position.z(), level), index};
+    }
+
+    /// Pairs of `e` with balls of one level, its own or a coarser one: there only the 27 cells
+    /// around its centre can hold a ball that reaches it. False when there are too many.
+    bool collect_near(const Entry& e, int level, std::vector<BallOverlap>& found) const {
+        const Entry here = at_level(ball(e.ball), level, e.ball);
+        for (std::int64_t x = here.x - 1; x <= here.x + 1; ++x)
+            for (std::int64_t y = here.y - 1; y <= here.y + 1; ++y) {
+                const Entry first{level, x, y, here.z - 1, -1};
+                auto other = std::lower_bound(entries_.begin(), entries_.end(), first);
+                for (; other != entries_.end(); ++other) {
+                    if (std::tie(other->level, other->x, other->y) != std::tie(level, x, y) ||
+                        other->z > here.z + 1)
+                        break;
+                    const bool once = other->level != e.level || e.ball < other->ball;
+                    if (once && !test(e.ball, other->ball, found)) return false;
+                }
+            }
+        return true;
+    }
+
+    bool test(int a, int b, std::vector<BallOverlap>& found) const {
+        const Ball& first = ball(a);
+        const Ball& second = ball(b);
+        const double depth =
+            first.radius + second.radius - (first.position - second.position).norm();
+        if (depth <= kTouchingDepth * std::min(first.radius, second.radius)) return true;
+        found.push_back({std::min(a, b), std::max(a, b), depth});
+        return found.size() < kMostOverlaps;
+    }
+
+    const Scene& scene_;
+    std::vector<Entry> entries_;
+    std::vector<int> levels_;
+};
+
+/// Balls ordered by x, so that a surface meets only those abreast of it.
+class BallsByX {
+  public:
+    BallsByX(const Scene& scene, const std::vector<bool>& sound) : scene_(scene) {
+        for (std::size_t i = 0; i < scene.balls.size(); ++i) {
+            if (!sound[i]) continue;
+            order_.push_back(static_cast<int>(i));
+            largest_ = std::max(largest_, scene.balls[i].radius);
+        }
+        std::sort(order_.begin(), order_.end(), [&](int a, int b) { return x(a) < x(b); });
+    }
+
+    void collect(int surface, std::vector<SurfaceOverlap>& found) const {
+        const SurfaceShape& shape = scene_.surfaces[static_cast<std::size_t>(surface)].shape;
+        const auto [low, high] = extent_x(shape);
+        auto ball = std::lower_bound(order_.begin(), order_.end(), low - largest_,
+                                     [&](int index, double bound) { return x(index) < bound; });
+        for (; ball != order_.end() && x(*ball) <= high + largest_; ++ball) {
+            const Ball& one = scene_.balls[static_cast<std::size_t>(*ball)];
+            const double distance = signed_distance(shape, one.position);
+            const double depth = one.radius - distance;
+            if (depth <= kTouchingDepth * size_of_other(shape, one.radius)) continue;
+            const bool plane = std::holds_alternative<PlaneShape>(shape);
+            found.push_back({*ball, surface, depth, plane ? std::max(-distance, 0.0) : 0.0});
+            if (found.size() >= kMostOverlaps) return;
+        }
+    }
+
+  private:
+    double x(int ball) const { return scene_.balls[static_cast<std::size_t>(ball)].position.x(); }
+
+    const Scene& scene_;
+    std::vector<int> order_;
+    double largest_ = 0;
+};
+
+}  // namespace
+
+double signed_distance(const SurfaceShape& shape, const Vec3& point) {
+    return std::visit([&](const auto& s) { return distance_to(s, point); }, shape);
+}
+
+OverlapList find_overlaps(const Scene& scene, const std::vector<bool>& balls,
+                          const std::vector<bool>& surfaces) {
+    OverlapList found;
+    BallGrid(scene, balls).collect(found.balls);
+    std::sort(found.balls.begin(), found.balls.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+    });
+    const BallsByX by_x(scene, balls);
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+        if (surfaces[i] && found.surfaces.size() < kMostOverlaps)
+            by_x.collect(static_cast<int>(i), found.surfaces);
+    std::sort(found.surfaces.begin(), found.surfaces.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.ball, a.surface) < std::tie(b.ball, b.surface);
+    });
+    return found;
+}
+
+}  // namespace carom

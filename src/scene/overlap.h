@@ -1,0 +1,40 @@
+// Bodies that overlap at the start. A motion cannot begin from such a scene: a solver would push
+// the bodies apart with speeds from nowhere.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace carom {
+
+/// Deeper than this, in units of the smaller radius, is an overlap; up to it bodies touch.
+inline constexpr double kTouchingDepth = 1e-9;
+
+struct BallOverlap {
+    int first = 0, second = 0;  ///< into Scene::balls, first < second
+    double depth = 0;           ///< m
+};
+
+struct SurfaceOverlap {
+    int ball = 0, surface = 0;
+    double depth = 0;      ///< m
+    double behind_by = 0;  ///< m; above 0 where the centre lies behind a plane
+};
+
+/// Ordered by indices. At most kMostOverlaps of each: a scene with more is wrong as a whole.
+struct OverlapList {
+    std::vector<BallOverlap> balls;
+    std::vector<SurfaceOverlap> surfaces;
+};
+inline constexpr std::size_t kMostOverlaps = 10'000;
+
+/// Searches the bodies whose entry is true. The cost grows like n log n for n balls that do not
+/// overlap, whatever their sizes.
+OverlapList find_overlaps(const Scene& scene, const std::vector<bool>& balls,
+                          const std::vector<bool>& surfaces);
+
+/// Distance from a point to the surface of a shape, m; negative inside, and behind a plane.
+double signed_distance(const SurfaceShape& shape, const Vec3& point);
+
+}  // namespace carom

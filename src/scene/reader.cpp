@@ -1,0 +1,96 @@
+#include "scene/reader.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+#include "core/failure.h"
+#include "scene/build.h"
+#include "scene/document.h"
+#include "scene/overrides.h"
+#include "scene/validate.h"
+
+namespace carom {
+
+namespace {
+
+/// Reads at most one byte more than a scene may have, so that a huge or endless input ends.
+std::string read_bounded(std::istream& stream) {
+    std::string text(kMaxDocumentBytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    return text;
+}
+
+void build_scene(Build& build) {
+    build_setup(build);
+    build_materials(build);
+    build_looks(build);
+    build_surfaces(build);
+    build_balls(build);
+    check_names(build);
+    check_overlaps(build);
+    warn_of_half_friction(build);
+}
+
+}  // namespace
+
+const std::vector<Node>& Build::entries(std::string_view key) const {
+    static const std::vector<Node> kNone;
+    const Node* node = root.find(key);
+    const KeySpec* spec = table.find(Section::kScene, key);
+    const Node::Kind kind = (spec->forms & form::kMaps) != 0 ? Node::Kind::kList : Node::Kind::kMap;
+    return node != nullptr && node->kind == kind ? node->children : kNone;
+}
+
+SceneResult read_scene(std::string_view text, const std::string& file,
+                       const std::vector<Override>& overrides) {
+    SceneResult result;
+    Report report(file);
+    std::optional<Node> root = parse_document(text, file, report.diagnostics());
+    if (root && root->kind != Node::Kind::kMap) {
+        report.error(*root, "a scene must be a mapping of keys, such as 'carom: 1'");
+        root.reset();
+    }
+    if (root) {
+        const KeyTable table;
+        apply_overrides(*root, overrides, table, report);
+        validate_section(*root, Section::kScene, table, report);
+        Scene scene;
+        scene.file = file;
+        Build build{table, report, *root, scene};
+        build_scene(build);
+        if (!report.diagnostics().has_errors()) result.scene = std::move(scene);
+    }
+    result.diagnostics = std::move(report.diagnostics());
+    result.diagnostics.sort();
+    return result;
+}
+
+SceneResult read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
+    if (path == "-") return read_scene(read_bounded(std::cin), "<stdin>", overrides);
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    std::string text;
+    if (stream) text = read_bounded(stream);
+    if (!stream.is_open() || stream.bad() || (stream.fail() && !stream.eof()))
+        throw Failure(FailureKind::kInput, fmt::format("cannot read the scene file '{}': {}", path,
+                                                       std::strerror(errno)));
+    return read_scene(text, path, overrides);
+}
+
+Override parse_override(const std::string& argument) {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw Failure(
+            FailureKind::kInput,
+            fmt::format("--set wants PATH=VALUE, such as balls.a.mass=1, not '{}'", argument));
+    return {argument.substr(0, equals), argument.substr(equals + 1)};
+}
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+// One touching pair of a step: what collision detection found, and what the solver made of it.
+#pragma once
+
+#include "core/types.h"
+#include "motion/motion.h"
+
+namespace carom {
+
+/// World frame, SI units. Of two balls, `ball` is the one that the scene names first.
+struct Contact {
+    // From collision detection.
+    int ball = -1;
+    Partner other;
+    Vec3 normal = Vec3::UnitZ();  ///< unit, towards `ball`
+    double depth = 0;         ///< of the real surfaces, m; negative for a gap (at most kTouch r)
+    Vec3 arm = Vec3::Zero();  ///< from the centre of `ball` to where forces act, m
+    Vec3 arm_other = Vec3::Zero();  ///< from the centre of the other ball; zero for a surface
+    Vec3 point = Vec3::Zero();      ///< on the surface that is met; between two balls, the middle
+    double restitution = 1;
+    double friction = 0;
+
+    // From the velocities before the step.
+    double approach_speed = 0;  ///< along the normal, m/s; negative when they separate
+    Vec3 slip = Vec3::Zero();   ///< tangential velocity of `ball` at the contact over the other's
+    bool impact = false;        ///< approach speed above the method's threshold
+    bool alone = true;          ///< the only contact of its island
+
+    // From the step.
+    double separation_speed = 0;  ///< along the normal, m/s; negative when they still approach
+    Vec3 slip_after = Vec3::Zero();
+    double impulse = 0;             ///< along the normal, N s
+    double tangential_impulse = 0;  ///< N s, >= 0
+};
+
+/// Centre velocity and spin of a ball, world axes.
+struct Velocities {
+    Vec3 linear = Vec3::Zero();
+    Vec3 spin = Vec3::Zero();
+};
+
+/// Velocity of `ball`'s material point at the contact minus the other's [m/s].
+inline Vec3 relative_velocity(const Contact& contact, const Velocities& ball,
+                              const Velocities& other) {
+    return ball.linear + ball.spin.cross(contact.arm) -
+           (other.linear + other.spin.cross(contact.arm_other));
+}
+
+}  // namespace carom

@@ -1,0 +1,220 @@
+#include "sim/fixed.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/failure.h"
+#include "sim/contact_finder.h"
+#include "sim/contact_solver.h"
+#include "sim/effects.h"
+#include "sim/event_log.h"
+#include "sim/ode_messages.h"
+#include "sim/ode_world.h"
+#include "sim/peaks.h"
+#include "sim/recorder.h"
+
+namespace carom {
+
+namespace {
+
+/// Up to here doubles count every step.
+constexpr double kMostSteps = 9007199254740992.0;  // 2^53
+
+/// Steps between two looks at the stop token: about a millisecond with few balls.
+constexpr std::int64_t kStepsPerLook = 1024;
+
+/// A duration that is a whole number of steps but for rounding takes just that number.
+constexpr double kStepSlack = 1e-9;
+
+std::int64_t step_count(double duration, double step) {
+    const double steps = std::ceil(duration / step - kStepSlack);
+    if (!(steps <= kMostSteps))
+        throw Failure(FailureKind::kRun,
+                      fmt::format("method fixed cannot take {:.3g} steps of {} s for {} s: raise "
+                                  "simulation.step or shorten the duration",
+                                  steps, step, duration));
+    return static_cast<std::int64_t>(steps);
+}
+
+double largest_speed(const Scene& scene) {
+    double speed = 0;
+    for (const Ball& ball : scene.balls)
+        speed = std::max(speed, ball.velocity.norm() + ball.radius * ball.spin.norm());
+    return speed;
+}
+
+/// Position correction at most as fast as gravity undoes it in the next step. Without this limit it
+/// would add energy: an overlap d leaves at erp d / h, after an inelastic impact at v as fast as
+/// v / 5, and nothing takes that speed back.
+ContactRules contact_rules(const Simulation& s) {
+    ContactRules rules;
+    rules.step = s.step;
+    rules.gravity = s.gravity;
+    rules.iterations = s.solver == Solver::kQuick ? std::max(s.iterations, 1) : 0;
+    rules.impact_threshold = 2 * s.gravity.norm() * s.step;  // the format of events says so
+    rules.correction_speed = s.gravity.norm() * s.step;
+    return rules;
+}
+
+/// One run: the world and everything that is kept while it is stepped.
+class FixedRun {
+  public:
+    explicit FixedRun(const Scene& scene);
+
+    /// The step that starts at time().
+    void step();
+    double time() const { return static_cast<double>(steps_) * scene_.simulation.step; }
+    bool all_at_rest() const { return log_.all_at_rest(); }
+    SimulationResult finish(double duration);
+
+  private:
+    void solve();
+    void read_state();
+    void record();
+    [[noreturn]] void fail(const std::string& text) const;
+
+    const Scene& scene_;
+    PairTable pairs_;
+    OdeWorld world_;
+    ContactSolver solver_;
+    EventLog log_;
+    std::vector<Recorder> recorders_;
+    std::int64_t steps_ = 0;
+
+    // The balls before and after the step, and what touched.
+    std::vector<Vec3> position_before_, position_;
+    std::vector<Velocities> before_, after_;
+    std::vector<Contact> contacts_;
+    std::vector<char> touching_, impact_;  ///< per ball
+};
+
+FixedRun::FixedRun(const Scene& scene)
+    : scene_(scene),
+      pairs_(scene),
+      world_(scene),
+      solver_(world_, contact_rules(scene.simulation)),
+      log_(EventRules::for_steps(scene.simulation.step, scene.simulation.gravity.norm(),
+                                 largest_speed(scene)),
+           world_.ball_count()) {
+    const std::size_t balls = scene.balls.size();
+    for (const Ball& ball : scene.balls)
+        recorders_.emplace_back(ball.radius, scene.simulation.gravity);
+    position_.resize(balls);
+    after_.resize(balls);
+    touching_.resize(balls);
+    impact_.resize(balls);
+    read_state();
+    // QuickStep shuffles its rows with ODE's own random numbers, which go on from run to run.
+    dRandSetSeed(0);
+}
+
+void FixedRun::fail(const std::string& text) const {
+    throw Failure(FailureKind::kRun, fmt::format("ODE failed at t = {} s: {}", time(), text));
+}
+
+void FixedRun::step() {
+    position_before_ = position_;
+    before_ = after_;
+    solve();
+    read_state();
+    solver_.finish(contacts_, after_);
+    log_.add_step(time(), contacts_, after_);
+    record();
+    ++steps_;
+}
+
+void FixedRun::solve() {
+    const OdeMessages messages;
+    try {
+        find_contacts(world_, pairs_, contacts_);
+        solver_.add_joints(contacts_, before_);
+        solver_.step();
+    } catch (const OdeFatal& error) {
+        fail(error.what());
+    }
+    if (!messages.empty()) fail(messages.text());
+}
+
+void FixedRun::read_state() {
+    for (int i = 0; i < world_.ball_count(); ++i) {
+        const auto b = static_cast<std::size_t>(i);
+        position_[b] = world_.position(i);
+        after_[b] = {world_.velocity(i), world_.spin(i)};
+        if (position_[b].allFinite() && after_[b].linear.allFinite() && after_[b].spin.allFinite())
+            continue;
+        throw Failure(FailureKind::kRun,
+                      fmt::format("the state of ball '{}' is not finite after the step at t = {} s",
+                                  scene_.balls[b].name, time()));
+    }
+}
+
+void FixedRun::record() {
+    std::fill(touching_.begin(), touching_.end(), 0);
+    std::fill(impact_.begin(), impact_.end(), 0);
+    const auto mark = [this](int ball, bool impact) {
+        touching_[static_cast<std::size_t>(ball)] = 1;
+        if (impact) impact_[static_cast<std::size_t>(ball)] = 1;
+    };
+    for (const Contact& contact : contacts_) {
+        mark(contact.ball, contact.impact);
+        if (!contact.other.is_surface) mark(contact.other.index, contact.impact);
+    }
+
+    Step step;
+    step.start = time();
+    step.end = static_cast<double>(steps_ + 1) * scene_.simulation.step;
+    for (std::size_t b = 0; b < recorders_.size(); ++b) {
+        step.position = position_before_[b];
+        step.end_position = position_[b];
+        step.before = before_[b];
+        step.mean = after_[b];
+        step.touching = touching_[b] != 0;
+        step.impact = impact_[b] != 0;
+        recorders_[b].add(step);
+    }
+}
+
+SimulationResult FixedRun::finish(double duration) {
+    SimulationResult result;
+    Motion& motion = result.motion;
+    motion.duration = duration;
+    for (const Ball& ball : scene_.balls) motion.ball_names.push_back(ball.name);
+    for (const Surface& surface : scene_.surfaces) motion.surface_names.push_back(surface.name);
+    for (Recorder& recorder : recorders_) motion.balls.push_back(recorder.finish());
+    motion.events = log_.finish();
+    std::erase_if(motion.events, [duration](const Event& e) { return e.time > duration; });
+    motion.peaks = find_peaks(scene_, motion);
+
+    result.report.steps = steps_;
+    result.report.impacts = log_.impacts();
+    result.report.effects = effects_of(scene_, pairs_);
+    return result;
+}
+
+}  // namespace
+
+SimulationResult simulate_fixed(const Scene& scene, const std::stop_token& stop,
+                                const SimulationProgress& progress) {
+    const Simulation& settings = scene.simulation;
+    const bool until_rest = !settings.duration && !settings.gravity.isZero(0);
+    const double limit = settings.duration.value_or(settings.max_duration);
+    // At least one step, so that a motion of 0 s has a state.
+    const std::int64_t count = std::max<std::int64_t>(step_count(limit, settings.step), 1);
+
+    FixedRun run(scene);
+    for (std::int64_t n = 0; n < count; ++n) {
+        if (n % kStepsPerLook == 0) {
+            if (stop.stop_requested())
+                throw Failure(FailureKind::kRun,
+                              fmt::format("interrupted at t = {} s of the simulation", run.time()));
+            if (progress) progress(run.time());
+        }
+        run.step();
+        if (until_rest && run.all_at_rest()) return run.finish(std::min(run.time(), limit));
+    }
+    return run.finish(limit);
+}
+
+}  // namespace carom

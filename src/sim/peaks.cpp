@@ -1,0 +1,61 @@
+#include "sim/peaks.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace carom {
+
+namespace {
+
+/// The time of the turn inside a piece, where n . v(t) = 0 on its way down.
+std::optional<double> turn_in(const Piece& piece, const Vec3& normal, double from, double to) {
+    const double a = normal.dot(piece.acceleration);
+    if (!(a < 0)) return std::nullopt;
+    const double t = piece.start - normal.dot(piece.velocity) / a;
+    if (!(t > from && t < to)) return std::nullopt;
+    return t;
+}
+
+/// The highest turn of the gap between two instants.
+std::optional<Peak> highest(const Trajectory& ball, double radius, const Event& impact, double to) {
+    const std::vector<Piece>& pieces = ball.pieces();
+    std::optional<Peak> best;
+    for (std::size_t i = ball.piece_index(impact.time); i < pieces.size(); ++i) {
+        if (pieces[i].start >= to) break;
+        const double begin = std::max(pieces[i].start, impact.time);
+        const double end = i + 1 < pieces.size() ? std::min(pieces[i + 1].start, to) : to;
+        const std::optional<double> turn = turn_in(pieces[i], impact.normal, begin, end);
+        if (!turn) continue;
+        const Vec3 above = pieces[i].at(*turn).position - impact.point;
+        const double height = impact.normal.dot(above) - radius;
+        if (height > 0 && (!best || height > best->height)) best = Peak{*turn, height};
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<std::vector<Peak>> find_peaks(const Scene& scene, const Motion& motion) {
+    std::vector<std::vector<const Event*>> impacts(scene.balls.size());
+    for (const Event& event : motion.events) {
+        if (event.kind != EventKind::kImpact) continue;
+        impacts[static_cast<std::size_t>(event.ball)].push_back(&event);
+        if (!event.other.is_surface)
+            impacts[static_cast<std::size_t>(event.other.index)].push_back(&event);
+    }
+
+    std::vector<std::vector<Peak>> peaks(scene.balls.size());
+    for (std::size_t b = 0; b < scene.balls.size(); ++b) {
+        for (std::size_t i = 0; i < impacts[b].size(); ++i) {
+            const Event& impact = *impacts[b][i];
+            const bool faces_up = impact.normal.dot(scene.simulation.gravity) < 0;
+            if (!impact.other.is_surface || !faces_up) continue;
+            const double to = i + 1 < impacts[b].size() ? impacts[b][i + 1]->time : motion.duration;
+            const auto peak = highest(motion.balls[b], scene.balls[b].radius, impact, to);
+            if (peak) peaks[b].push_back(*peak);
+        }
+    }
+    return peaks;
+}
+
+}  // namespace carom

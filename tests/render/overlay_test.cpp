@@ -1,0 +1,256 @@
+// Ruler, clock and fonts.
+#include "render/overlay.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/failure.h"
+#include "render/font.h"
+#include "render/overlay_clock.h"
+#include "render/overlay_ruler.h"
+#include "sample_views.h"
+
+namespace carom {
+namespace {
+
+using Rect = OverlayPainter::Rect;
+using namespace samples;
+
+// ---- Nothing, and fonts ------------------------------------------------------------------------
+
+TEST(Overlay, DrawsNothingWhenNothingIsAsked) {
+    const Sample sample = five_balls();
+    OverlayPainter overlay(sample.scene, sample.motion, view_of(sample, {320, 180}));
+    EXPECT_EQ(overlay.static_under_layer().width_px, 0);
+    EXPECT_FALSE(overlay.has_moving_under_layer());
+    EXPECT_TRUE(overlay.update_moving_under_layer(1).empty());
+    EXPECT_EQ(overlay.moving_under_layer().width_px, 0);
+    Image picture(320, 180);
+    std::fill(picture.bgra.begin(), picture.bgra.end(), std::uint8_t{137});
+    const Image before = picture;
+    overlay.draw_over(1, picture);
+    EXPECT_EQ(picture, before);
+}
+
+TEST(Overlay, DrawsWhatIsAsked) {
+    Sample sample = five_balls();
+    sample.scene.overlay = {RulerOptions{}, ClockOptions{}, TrailOptions{}, LabelOptions{}};
+    OverlayPainter overlay(sample.scene, sample.motion, view_of(sample, {640, 360}));
+    const auto drawn = [](const Image& picture) {
+        return std::count_if(picture.bgra.begin(), picture.bgra.end(), [](int v) { return v > 0; });
+    };
+    EXPECT_GT(drawn(overlay.static_under_layer()), 1000);
+    EXPECT_FALSE(overlay.update_moving_under_layer(1).empty());
+    EXPECT_GT(drawn(overlay.moving_under_layer()), 1000);
+    Image picture(640, 360);
+    overlay.draw_over(1, picture);
+    EXPECT_GT(drawn(picture), 5000);
+}
+
+TEST(Font, MissingFamilyNamesThePackage) {
+    try {
+        const Font font("No Such Family", 12);
+        FAIL() << "a font was found";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.kind(), FailureKind::kRun);
+        const std::string text = failure.what();
+        EXPECT_NE(text.find("No Such Family"), std::string::npos) << text;
+        EXPECT_NE(text.find("fonts-inter"), std::string::npos) << text;
+    }
+}
+
+TEST(Font, EveryDigitIsEquallyWide) {
+    const Font font(kOverlayFontFamily, 17);
+    const double width = font.lay_out("0000").width_px;
+    EXPECT_GT(width, 17);
+    for (const char* number : {"1111", "4444", "1789", "2305"})
+        EXPECT_DOUBLE_EQ(font.lay_out(number).width_px, width) << number;
+    EXPECT_LT(font.lay_out("iiii").width_px, font.lay_out("mmmm").width_px);
+}
+
+// ---- The ruler ---------------------------------------------------------------------------------
+
+TEST(Ruler, ReadsTheGapUnderABall) {
+    // The ball's lowest point at a gap of h stands level with the mark of h, at every height.
+    Sample sample = drop(1.8, 0.12, 4);
+    sample.scene.overlay.ruler = RulerOptions{};
+    for (const bool own : {false, true}) {
+        if (own)
+            sample.scene.camera = Camera{Vec3(0.5, -6, 1.5), Vec3(0.5, 0, 1.5), Vec3::UnitZ(), 40};
+        const View view = view_of(sample, {1280, 720});
+        const auto staff = stand_ruler(sample.scene, sample.motion, view);
+        ASSERT_TRUE(staff);
+        EXPECT_DOUBLE_EQ(staff->from_m, 0);
+        EXPECT_DOUBLE_EQ(staff->to_m, 2);
+        double worst = 0;
+        for (int k = 0; k <= 200; ++k) {
+            const Vec3 center = sample.motion.balls[0].at(0.02 * k).position;
+            const double gap = center.z() - 0.12;
+            const auto bottom = view.project(center - Vec3(0, 0, 0.12));
+            const auto mark = view.project(Vec3(staff->foot.x(), staff->foot.y(), gap));
+            worst = std::max(worst, std::abs(bottom.y_px - mark.y_px));
+            EXPECT_LT(mark.x_px + 10, bottom.x_px);
+        }
+        fmt::print("{}: worst offset {:.2e} px (bound 1e-9)\n", own ? "level" : "framed", worst);
+        EXPECT_LT(worst, 1e-9);
+    }
+}
+
+TEST(Ruler, TicksStandWhereTheirHeightsProjectTo) {
+    Sample sample = five_balls();
+    sample.scene.overlay.ruler = RulerOptions{};
+    for (const Size& size : kSizes) {
+        const View view = view_of(sample, size);
+        const auto staff = stand_ruler(sample.scene, sample.motion, view);
+        ASSERT_TRUE(staff);
+        const auto layout = lay_out_ruler(*staff, view);
+        ASSERT_TRUE(layout);
+        int numbers = 0;
+        double last_number_y = 1e9;
+        for (const RulerTick& tick : layout->ticks) {
+            const auto p = view.project(Vec3(staff->foot.x(), staff->foot.y(), tick.height_m));
+            EXPECT_NEAR(tick.px.x(), p.x_px, 1e-9);
+            EXPECT_NEAR(tick.px.y(), p.y_px, 1e-9);
+            EXPECT_EQ(tick.label.empty(), tick.rank != TickRank::kMajor);
+            if (tick.label.empty()) continue;
+            ++numbers;
+            EXPECT_NEAR(std::stod(tick.label), tick.height_m, 1e-9);
+            EXPECT_GT(last_number_y - tick.px.y(), 2 * ruler_font_px(view));
+            last_number_y = tick.px.y();
+        }
+        fmt::print("{}x{}: a number every {} m, {} numbers, {} ticks\n", size.width, size.height,
+                   layout->major_step_m, numbers, layout->ticks.size());
+        EXPECT_GE(numbers, 3);
+        EXPECT_DOUBLE_EQ(layout->ticks.front().height_m, 0);
+        EXPECT_NEAR(layout->ticks.back().height_m, 2, 1e-12);
+    }
+}
+
+TEST(Ruler, LiesInsideTheFramedPicture) {
+    Sample sample = five_balls();
+    sample.scene.overlay.ruler = RulerOptions{};
+    for (const Size& size : kSizes) {
+        const OverlayPainter overlay(sample.scene, sample.motion, view_of(sample, size));
+        const Image picture = overlay.static_under_layer();
+        ASSERT_EQ(picture.width_px, size.width);
+        int least_x = size.width, least_y = size.height, most_y = 0;
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                if (alpha_at(picture, x, y) == 0) continue;
+                least_x = std::min(least_x, x);
+                least_y = std::min(least_y, y);
+                most_y = std::max(most_y, y);
+            }
+        }
+        fmt::print("{}x{}: free at the left {}, top {}, bottom {}\n", size.width, size.height,
+                   least_x, least_y, size.height - 1 - most_y);
+        EXPECT_GE(least_x, 2);
+        EXPECT_GE(least_y, 2);
+        EXPECT_LT(most_y, size.height - 2);
+    }
+}
+
+TEST(Ruler, EndsAtTheNextMarkAboveTheHighestGap) {
+    const std::pair<double, double> cases[] = {{1.8, 2},       {2.0, 2},     {2.01, 2.5},
+                                               {0.7, 1},       {3.2, 4},     {9.5, 10},
+                                               {10000, 10000}, {0.02, 0.02}, {0.013, 0.015}};
+    for (const auto& [gap, top] : cases) {
+        Sample sample = drop(gap, 0.01 * gap, 1);
+        sample.scene.overlay.ruler = RulerOptions{};
+        const MotionExtent extent(sample.scene, sample.motion);
+        const auto staff = place_ruler(sample.scene, sample.motion, extent, Vec3::UnitX());
+        ASSERT_TRUE(staff);
+        EXPECT_NEAR(staff->to_m, top, 1e-9 * top) << "gap " << gap;
+    }
+}
+
+TEST(Ruler, StandsWhereTheSceneSays) {
+    Sample sample = drop(1.8, 0.12, 4);
+    sample.scene.overlay.ruler = RulerOptions{Vec2(-0.7, 0.2), 0.5, 1.75};
+    const View view = view_of(sample, {1280, 720});
+    const auto staff = stand_ruler(sample.scene, sample.motion, view);
+    ASSERT_TRUE(staff);
+    EXPECT_EQ(staff->foot, Vec2(-0.7, 0.2));
+    const auto layout = lay_out_ruler(*staff, view);
+    ASSERT_TRUE(layout);
+    EXPECT_NEAR(layout->ticks.front().height_m, 0.5, 1e-12);
+    EXPECT_NEAR(layout->ticks.back().height_m, 1.75, layout->major_step_m);
+}
+
+TEST(Ruler, ChangesSideWhereTheCameraHasNoRoom) {
+    Sample sample = drop(1.8, 0.12, 4);
+    sample.scene.overlay.ruler = RulerOptions{};
+    // The ball stands at the left edge of this picture.
+    sample.scene.camera = Camera{Vec3(2.2, -6, 1), Vec3(2.2, 0, 1), Vec3::UnitZ(), 26};
+    const View view = view_of(sample, {1280, 720});
+    const auto staff = stand_ruler(sample.scene, sample.motion, view);
+    ASSERT_TRUE(staff);
+    EXPECT_TRUE(staff->right_of_motion);
+    EXPECT_GT(staff->foot.x(), 0.12);
+}
+
+TEST(Ruler, AnEndlessStaffHasAsManyTicksAsThePictureHolds) {
+    Sample sample = drop(1.8, 0.12, 4);
+    const View view = view_of(sample, {1280, 720});
+    const auto layout = lay_out_ruler(RulerStaff{Vec2(-0.5, 0), -1e7, 1e7, false}, view);
+    ASSERT_TRUE(layout);
+    fmt::print("{} ticks (at most 300)\n", layout->ticks.size());
+    EXPECT_GT(layout->ticks.size(), 20u);
+    EXPECT_LT(layout->ticks.size(), 300u);
+    // Behind the eye there is nothing to draw.
+    const Vec3 behind = view.eye() - 3 * view.forward();
+    EXPECT_FALSE(lay_out_ruler(RulerStaff{behind.head<2>(), 0, 2, false}, view));
+}
+
+// ---- The clock ---------------------------------------------------------------------------------
+
+TEST(Clock, TextKeepsItsLength) {
+    const OverlayClock clock(ClockOptions{Corner::kTopLeft, 2}, 12.5, 1280, 720,
+                             kOverlayFontFamily);
+    EXPECT_EQ(clock.text(0), " 0.00");
+    EXPECT_EQ(clock.text(1.25), " 1.25");
+    EXPECT_EQ(clock.text(12.5), "12.50");
+    EXPECT_EQ(clock.text(-1e-17), " 0.00");
+    const OverlayClock whole(ClockOptions{Corner::kTopLeft, 0}, 9, 1280, 720, kOverlayFontFamily);
+    EXPECT_EQ(whole.text(3.2), "3");
+}
+
+TEST(Clock, OnlyTheDigitThatChangesChangesPixels) {
+    const OverlayClock clock(ClockOptions{}, 4, 1280, 720, kOverlayFontFamily);
+    Image before(1280, 720), after(1280, 720);
+    clock.draw(1.21, before);
+    clock.draw(1.27, after);
+    int least = 1280, most = 0;
+    for (int y = 0; y < 720; ++y)
+        for (int x = 0; x < 1280; ++x)
+            if (!std::equal(before.row(y) + 4 * x, before.row(y) + 4 * x + 4,
+                            after.row(y) + 4 * x)) {
+                least = std::min(least, x);
+                most = std::max(most, x);
+            }
+    fmt::print("pixels differ from x = {} to {}\n", least, most);
+    ASSERT_LE(least, most);
+    EXPECT_LT(most - least, 17);  // one letter
+}
+
+TEST(Clock, StandsInItsCorner) {
+    for (const Size& size : kSizes) {
+        for (const Corner corner :
+             {Corner::kTopLeft, Corner::kTopRight, Corner::kBottomLeft, Corner::kBottomRight}) {
+            const OverlayClock clock(ClockOptions{corner, 3}, 4, size.width, size.height,
+                                     kOverlayFontFamily);
+            const Rect r = clock.rect();
+            EXPECT_TRUE(inside(r, size));
+            const bool left = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;
+            const bool top = corner == Corner::kTopLeft || corner == Corner::kTopRight;
+            EXPECT_EQ(r.x + r.width / 2 < size.width / 2, left);
+            EXPECT_EQ(r.y + r.height / 2 < size.height / 2, top);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace carom
