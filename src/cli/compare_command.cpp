@@ -64,14 +64,16 @@ class Comparison {
     const Image& worst_picture() const { return picture_; }
 
     std::string text() const {
-        std::string what = worst_.same_size
-                               ? fmt::format("largest difference {} of 255, {:.4f} % of pixels differ, "
-                                             "luma PSNR {:.2f} dB",
-                                             worst_.largest, 100 * worst_.differing_fraction(),
-                                             worst_.psnr_luma_db)
-                               : "the sizes differ";
-        std::string result = fmt::format("{}: {} compared, worst {}: {}\n", same() ? "same" : "different",
-                                         compared_, worst_name_, what);
+        std::string what =
+            worst_.same_size
+                ? fmt::format(
+                      "largest difference {} of 255, {:.4f} % of pixels differ, "
+                      "luma PSNR {:.2f} dB",
+                      worst_.largest, 100 * worst_.differing_fraction(), worst_.psnr_luma_db)
+                : "the sizes differ";
+        std::string result =
+            fmt::format("{}: {} compared, worst {}: {}\n", same() ? "same" : "different", compared_,
+                        worst_name_, what);
         for (const std::string& name : failed_) result += fmt::format("differs: {}\n", name);
         return result;
     }
@@ -147,10 +149,11 @@ void compare_films(const CompareOptions& options, Comparison& comparison) {
 int compare(const CompareOptions& options) {
     const Kind kind = kind_of(options.a);
     if (kind_of(options.b) != kind)
-        throw Failure(FailureKind::kInput,
-                      fmt::format("{} and {} are not of one kind: compare two pictures, two folders "
-                                  "or two films",
-                                  options.a, options.b));
+        throw Failure(
+            FailureKind::kInput,
+            fmt::format("{} and {} are not of one kind: compare two pictures, two folders "
+                        "or two films",
+                        options.a, options.b));
     if (!options.difference.empty()) require_writable(options.difference, options.overwrite);
 
     ImageTolerance tolerance;
@@ -166,8 +169,12 @@ int compare(const CompareOptions& options) {
         case Kind::kPicture:
             comparison.add(options.a, read_png(options.a), read_png(options.b));
             break;
-        case Kind::kFolder: compare_folders(options, comparison); break;
-        case Kind::kFilm: compare_films(options, comparison); break;
+        case Kind::kFolder:
+            compare_folders(options, comparison);
+            break;
+        case Kind::kFilm:
+            compare_films(options, comparison);
+            break;
     }
     if (!options.difference.empty() && comparison.worst_picture().width_px > 0)
         write_png(options.difference, comparison.worst_picture());

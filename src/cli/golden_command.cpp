@@ -30,7 +30,8 @@ struct GoldenOptions {
 };
 
 std::string golden_path(const GoldenOptions& options, const std::string& scene, double time) {
-    return (fs::path(options.folder) / fmt::format("{}-t{:.6f}.png", scene_stem(scene), time)).string();
+    return (fs::path(options.folder) / fmt::format("{}-t{:.6f}.png", scene_stem(scene), time))
+        .string();
 }
 
 /// One still against its golden; prints what was found.
@@ -76,8 +77,9 @@ bool for_each_still(const GoldenOptions& options, const std::string& path,
     Image picture;
     for (const double time : times) {
         if (!(time >= 0 && time <= simulated.motion.duration))
-            throw Failure(FailureKind::kInput, fmt::format("{}: no instant {} s: the motion ends at {} s",
-                                                           path, time, simulated.motion.duration));
+            throw Failure(FailureKind::kInput,
+                          fmt::format("{}: no instant {} s: the motion ends at {} s", path, time,
+                                      simulated.motion.duration));
         painter.paint(time, picture);
         use(golden_path(options, path, time), picture, painter.renderer());
     }
@@ -87,11 +89,11 @@ bool for_each_still(const GoldenOptions& options, const std::string& path,
 int check(const GoldenOptions& options, const Interrupt& interrupt) {
     bool valid = true, same = true;
     for (const std::string& scene : options.scenes)
-        valid &= for_each_still(options, scene, interrupt,
-                                [&](const std::string& path, const Image& drawn,
-                                    const std::string& renderer) {
-                                    same &= matches(options, path, drawn, renderer);
-                                });
+        valid &= for_each_still(
+            options, scene, interrupt,
+            [&](const std::string& path, const Image& drawn, const std::string& renderer) {
+                same &= matches(options, path, drawn, renderer);
+            });
     if (!valid) return kExitInvalidScene;
     return same ? kExitDone : kExitDifferent;
 }
@@ -104,15 +106,17 @@ int update(const GoldenOptions& options, const Interrupt& interrupt) {
                       fmt::format("making the folder {}: {}", options.folder, error.message()));
     bool valid = true;
     for (const std::string& scene : options.scenes)
-        valid &= for_each_still(
-            options, scene, interrupt,
-            [&](const std::string& path, const Image& drawn, const std::string&) {
-                // A golden that still holds stays as it is, so that its history shows real changes.
-                if (fs::exists(path) && ImageTolerance{}.accepts(compare_images(read_png(path), drawn)))
-                    return;
-                write_png(path, drawn, PngEffort::kSmall);
-                write_standard_output(fmt::format("written: {}\n", path));
-            });
+        valid &=
+            for_each_still(options, scene, interrupt,
+                           [&](const std::string& path, const Image& drawn, const std::string&) {
+                               // A golden that still holds stays as it is, so that its history
+                               // shows real changes.
+                               if (fs::exists(path) &&
+                                   ImageTolerance{}.accepts(compare_images(read_png(path), drawn)))
+                                   return;
+                               write_png(path, drawn, PngEffort::kSmall);
+                               write_standard_output(fmt::format("written: {}\n", path));
+                           });
     return valid ? kExitDone : kExitInvalidScene;
 }
 

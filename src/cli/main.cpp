@@ -1,4 +1,5 @@
-// The program: parses the command line, runs one command, and turns what went wrong into exit codes.
+// The program: parses the command line, runs one command, and turns what went wrong into exit
+// codes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -26,9 +27,12 @@ constexpr const char* kExamples =
 
 int exit_code_of(const Failure& failure) {
     switch (failure.kind()) {
-        case FailureKind::kRun: return kExitFailed;
-        case FailureKind::kInput: return kExitUsage;
-        case FailureKind::kOutput: return kExitOutput;
+        case FailureKind::kRun:
+            return kExitFailed;
+        case FailureKind::kInput:
+            return kExitUsage;
+        case FailureKind::kOutput:
+            return kExitOutput;
     }
     return kExitFailed;
 }
@@ -48,9 +52,10 @@ int run_program(int argc, char** argv) {
     const Interrupt interrupt;
     std::signal(SIGPIPE, SIG_IGN);
 
-    CLI::App app("Physically exact films of bouncing balls, from a text file, with no display.\n\n" +
-                     std::string(kExamples),
-                 "carom");
+    CLI::App app(
+        "Physically exact films of bouncing balls, from a text file, with no display.\n\n" +
+            std::string(kExamples),
+        "carom");
     app.set_version_flag("--version", "carom " CAROM_VERSION);
     app.require_subcommand(1);
     Run run;

@@ -16,11 +16,11 @@ namespace carom {
 
 /// What the user asked for on the command line, besides the command's own options.
 struct CommonOptions {
-    std::vector<std::string> set;      ///< PATH=VALUE
-    std::optional<std::string> size;   ///< WxH
+    std::vector<std::string> set;     ///< PATH=VALUE
+    std::optional<std::string> size;  ///< WxH
     std::optional<std::string> fps;
     bool overwrite = false;
-    std::string stats_path;            ///< empty: none
+    std::string stats_path;  ///< empty: none
     ProgressMode progress = ProgressMode::kAuto;
     bool quiet = false;
     bool verbose = false;
@@ -30,10 +30,10 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::kNone : progress; }
 };
 
-void add_scene_options(CLI::App& command, CommonOptions& options);     ///< --set
-void add_picture_options(CLI::App& command, CommonOptions& options);   ///< --size
-void add_output_options(CLI::App& command, CommonOptions& options);    ///< -y, --stats
-void add_talk_options(CLI::App& command, CommonOptions& options);      ///< --progress, -q, -v
+void add_scene_options(CLI::App& command, CommonOptions& options);    ///< --set
+void add_picture_options(CLI::App& command, CommonOptions& options);  ///< --size
+void add_output_options(CLI::App& command, CommonOptions& options);   ///< -y, --stats
+void add_talk_options(CLI::App& command, CommonOptions& options);     ///< --progress, -q, -v
 
 /// Reads the scene and prints its diagnostics; empty when it is invalid (exit code 3).
 std::optional<Scene> load_scene(const std::string& path, const CommonOptions& options);

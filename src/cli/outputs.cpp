@@ -17,7 +17,7 @@ namespace carom {
 namespace {
 
 /// Frames that may wait between drawing and encoding; more would only cost memory.
-constexpr int kWaitingFrames = 3;
+constexpr int kWaitingFrames = 2;
 
 constexpr std::array kFilmExtensions = {".mp4", ".mkv"};
 
@@ -50,10 +50,11 @@ void check_name(const OutputRequest& output) {
     if (extension.empty()) return;  // a folder
     if (std::filesystem::is_directory(output.path)) return;
     const std::string right =
-        extension == ".png" ? "frames need a number in their name, e.g. frame_%05d.png, or a folder; "
-                              "for one picture use `carom still`"
-                            : "films end in .mp4 or .mkv; frames go to a name such as "
-                              "frame_%05d.png or to a folder";
+        extension == ".png"
+            ? "frames need a number in their name, e.g. frame_%05d.png, or a folder; "
+              "for one picture use `carom still`"
+            : "films end in .mp4 or .mkv; frames go to a name such as "
+              "frame_%05d.png or to a folder";
     throw Failure(FailureKind::kInput, fmt::format("-o {}: {}", output.path, right));
 }
 
@@ -88,7 +89,7 @@ std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene&
                                        const EncodingOptions& encoding) {
     if (!output.is_film()) {
         if (output.path == "-") return make_png_stream();
-        return make_threaded_sink(make_png_sequence(output.path), kWaitingFrames);
+        return make_png_sequence(output.path);  // has threads of its own
     }
     const Quality quality = quality_named(encoding.quality);
     FilmOptions film;

@@ -46,8 +46,8 @@ void Progress::update(std::int64_t done) {
     const double elapsed = elapsed_s();
     const double rate = static_cast<double>(done) / elapsed;
     const double left = rate > 0 ? static_cast<double>(total_ - done) / rate : 0;
-    const std::string numbers = fmt::format("{}/{} {}, {:.1f}/s, {} left", done, total_, what_, rate,
-                                            format_duration(left));
+    const std::string numbers = fmt::format("{}/{} {}, {:.1f}/s, {} left", done, total_, what_,
+                                            rate, format_duration(left));
     if (!bar) {
         fmt::print(stderr, "{}\n", numbers);
         return;

@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/cpu_timer.h"
 #include "cli/exit_codes.h"
 #include "cli/film_plan.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/stats.h"
-#include "cli/thread_cpu.h"
 #include "core/failure.h"
 #include "media/output_file.h"
 #include "render/painter.h"
@@ -56,7 +56,8 @@ std::int64_t film(Painter& painter, const Film& film, const std::vector<std::int
     for (const std::int64_t frame : frames) {
         if (interrupt.requested()) break;
         painter.paint(frame_time(film, frame), picture);
-        for (const auto& sink : sinks) sink->write(frame, picture);
+        for (std::size_t i = 0; i + 1 < sinks.size(); ++i) sinks[i]->write(frame, picture);
+        sinks.back()->write_swapped(frame, picture);  // nobody else needs it: no copy
         progress.update(++done);
     }
     return done;
@@ -169,7 +170,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_option("--quality", options->encoding.quality, "draft, medium or high")
         ->check(CLI::IsMember({"draft", "medium", "high"}));
     command->add_option("--crf", options->encoding.crf, "x264's constant rate factor")
-        ->check(CLI::Range(0, 51));
+        ->check(CLI::Range(1, 51));
     command->add_option("--preset", options->encoding.preset, "x264's preset, e.g. medium");
     command->add_option("--threads", options->encoding.threads, "Threads of the encoder")
         ->check(CLI::Range(1, 128));

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/thread_cpu.h"
+#include "cli/cpu_timer.h"
 #include "core/failure.h"
 #include "media/png.h"
 #include "media/threaded_sink.h"
@@ -34,12 +34,13 @@ namespace {
 class PngStream : public FrameSink {
   public:
     void write(std::int64_t, const Image& frame) override {
-        const double before = thread_cpu_s();
-        const std::string bytes = encode_png(frame);
-        const double encoded = thread_cpu_s();
+        std::string bytes;
+        {
+            const CpuTimer timer(times_.encode_cpu_s);
+            bytes = encode_png(frame);
+        }
+        const CpuTimer timer(times_.write_cpu_s);
         write_standard_output(bytes);
-        times_.encode_cpu_s += encoded - before;
-        times_.write_cpu_s += thread_cpu_s() - encoded;
     }
     void finish() override {}
     std::string keep_partial() override { return {}; }
@@ -55,8 +56,8 @@ class TemporaryFolder {
     TemporaryFolder() {
         std::string name = (std::filesystem::temp_directory_path() / "carom-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr)
-            throw Failure(FailureKind::kOutput,
-                          fmt::format("making a temporary folder {}: {}", name, std::strerror(errno)));
+            throw Failure(FailureKind::kOutput, fmt::format("making a temporary folder {}: {}",
+                                                            name, std::strerror(errno)));
         path_ = name;
     }
     ~TemporaryFolder() {

@@ -18,8 +18,8 @@ void write_standard_output(std::string_view bytes);
 /// Frames as PNGs, one after another.
 std::unique_ptr<FrameSink> make_png_stream();
 
-/// A film in `format` (mp4 or mkv). It is muxed into a temporary file and copied at the end, because
-/// the index of an MP4 stands first and is known last.
+/// A film in `format` (mp4 or mkv). It is muxed into a temporary file and copied at the end,
+/// because the index of an MP4 stands first and is known last.
 std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
                                             int waiting_frames);
 

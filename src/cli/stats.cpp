@@ -58,15 +58,19 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
     using std::chrono::steady_clock;
     nlohmann::ordered_json json;
     json["wall_s"] = duration<double>(steady_clock::now() - stats.start).count();
-    json["cpu_s"] = {{"scene", stats.scene_cpu_s},          {"sim", stats.sim_cpu_s},
-                     {"draw", stats.draw_cpu_s},            {"read", stats.read_cpu_s},
-                     {"convert", stats.sinks.convert_cpu_s}, {"encode", stats.sinks.encode_cpu_s},
+    json["cpu_s"] = {{"scene", stats.scene_cpu_s},
+                     {"sim", stats.sim_cpu_s},
+                     {"draw", stats.draw_cpu_s},
+                     {"read", stats.read_cpu_s},
+                     {"convert", stats.sinks.convert_cpu_s},
+                     {"encode", stats.sinks.encode_cpu_s},
                      {"write", stats.sinks.write_cpu_s}};
     json["frames"] = stats.frames;
     json["steps"] = result != nullptr ? result->report.steps : 0;
     json["impacts"] = result != nullptr ? result->report.impacts : 0;
     std::map<std::string, Effect> effects = stats.effects;
-    if (result != nullptr) effects.insert(result->report.effects.begin(), result->report.effects.end());
+    if (result != nullptr)
+        effects.insert(result->report.effects.begin(), result->report.effects.end());
     json["effects"] = nlohmann::ordered_json::object();
     for (const auto& [name, effect] : effects)
         json["effects"][name] = {{"on", effect.on}, {"why", effect.why}};

@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/cpu_timer.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
-#include "cli/thread_cpu.h"
 #include "core/failure.h"
 #include "media/output_file.h"
 #include "media/png.h"

@@ -29,11 +29,11 @@ template <class A, class B>
 }  // namespace carom
 
 /// CAROM_CHECK(i, <, n): throws Bug with both values when the comparison does not hold.
-#define CAROM_CHECK(a, op, b)                                                             \
-    do {                                                                                  \
-        const auto& carom_check_a = (a);                                                  \
-        const auto& carom_check_b = (b);                                                  \
-        if (!(carom_check_a op carom_check_b))                                            \
-            ::carom::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b,          \
-                                          carom_check_a, carom_check_b);                  \
+#define CAROM_CHECK(a, op, b)                                                                   \
+    do {                                                                                        \
+        const auto& carom_check_a = (a);                                                        \
+        const auto& carom_check_b = (b);                                                        \
+        if (!(carom_check_a op carom_check_b))                                                  \
+            ::carom::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, carom_check_a, \
+                                          carom_check_b);                                       \
     } while (false)

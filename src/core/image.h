@@ -31,10 +31,10 @@ struct Image {
 /// What the comparison of two pictures found; channels are compared as bytes.
 struct ImageDifference {
     bool same_size = true;
-    int largest = 0;                  ///< largest difference of any channel anywhere, 0 ... 255
-    std::int64_t pixels = 0;          ///< pixels compared
-    std::int64_t differing = 0;       ///< pixels with any channel off at all
-    double psnr_luma_db = 0;          ///< of BT.709 luma; infinity when identical
+    int largest = 0;             ///< largest difference of any channel anywhere, 0 ... 255
+    std::int64_t pixels = 0;     ///< pixels compared
+    std::int64_t differing = 0;  ///< pixels with any channel off at all
+    double psnr_luma_db = 0;     ///< of BT.709 luma; infinity when identical
     double differing_fraction() const {
         return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0.0;
     }
@@ -42,8 +42,8 @@ struct ImageDifference {
 
 /// Limits below which two pictures count as the same (docs/commands.md says why these).
 struct ImageTolerance {
-    int channel = 2;              ///< no channel anywhere may be off by more
-    double differing = 0.01;      ///< no larger fraction of the pixels may be off at all
+    int channel = 2;          ///< no channel anywhere may be off by more
+    double differing = 0.01;  ///< no larger fraction of the pixels may be off at all
     bool accepts(const ImageDifference& d) const {
         return d.same_size && d.largest <= channel && d.differing_fraction() <= differing;
     }

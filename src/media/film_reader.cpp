@@ -69,7 +69,7 @@ class FilmReader::Impl {
         decoder_.reset(allocated(avcodec_alloc_context3(codec)));
         decoder_->max_pixels = kMostPixels;
         decoder_->err_recognition = AV_EF_EXPLODE;  // a damaged frame must not pass for a whole one
-        decoder_->thread_count = 0;
+        decoder_->thread_count = 1;  // more would hold more frames; nobody waits for the reader
         check(avcodec_parameters_to_context(decoder_.get(), input_->streams[stream_]->codecpar),
               messages);
         check(avcodec_open2(decoder_.get(), codec, nullptr), messages);

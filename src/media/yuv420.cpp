@@ -28,12 +28,13 @@ constexpr double kOne = 1 << kBits;
 
 constexpr int fixed(double x) { return static_cast<int>(x < 0 ? x * kOne - 0.5 : x * kOne + 0.5); }
 
-constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;
+constexpr double kRed = 0.2126, kBlue = 0.0722;
 constexpr double kLuma = 219.0 / 255.0;
 constexpr double kCb = 224.0 / 255.0 / 1.8556;
 constexpr double kCr = 224.0 / 255.0 / 1.5748;
 
-// The coefficients of each sum are rounded so that they add up exactly: grey stays grey.
+// Green's coefficient (0.7152) is what the others leave of the sum, so that rounding keeps grey
+// grey.
 constexpr int kYr = fixed(kLuma * kRed), kYb = fixed(kLuma * kBlue);
 constexpr int kYg = fixed(kLuma) - kYr - kYb;
 constexpr int kCbr = fixed(-kCb * kRed), kCbb = fixed(kCb * (1 - kBlue)), kCbg = -kCbr - kCbb;

@@ -11,9 +11,9 @@ namespace carom {
 namespace {
 
 // One instance, in the order of the vertex shader's attributes (ball_vertex.glsl).
-constexpr std::array<const char*, 10> kAttributes = {
-    "a_bound", "a_axes", "a_ray",   "a_offset", "a_row_x",
-    "a_row_y", "a_row_z", "a_color", "a_second", "a_contact"};
+constexpr std::array<const char*, 10> kAttributes = {"a_bound",  "a_axes",   "a_ray",   "a_offset",
+                                                     "a_row_x",  "a_row_y",  "a_row_z", "a_color",
+                                                     "a_second", "a_contact"};
 constexpr std::size_t kInstanceFloats = 4 * kAttributes.size();
 constexpr GLsizei kCorners = 8;  ///< of the octagon around a ball
 constexpr int kMostCasters = 8;  ///< balls that shade one ball; more would hardly be seen
@@ -94,7 +94,8 @@ BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInVie
         int count = 0;
         for (const BallInView& other : balls) {
             if (&other == &ball || count == kMostCasters) continue;
-            // Between the ball and the lamp, within the penumbra's reach, or close enough to darken.
+            // Between the ball and the lamp, within the penumbra's reach, or close enough to
+            // darken.
             const Vec3 rel = other.center - ball.center;
             const double along = rel.dot(to_light_);
             const double reach = ball.radius + other.radius;
@@ -129,10 +130,9 @@ void BallBillboards::append_instance(const BallInView& ball, const BallShade& sh
     // difference of two rays instead of with large coordinates.
     const bool ahead = outline.is_ellipse;
     const double depth = ahead ? ball.center.z() : 0.0;
-    const Vec2 reference =
-        ahead ? Vec2(0.5 * size + Vec2(ball.center.x(), ball.center.y()) /
-                                      (ball.center.z() * pixel_width(view_)))
-              : Vec2(0.5 * size);
+    const Vec2 reference = ahead ? Vec2(0.5 * size + Vec2(ball.center.x(), ball.center.y()) /
+                                                         (ball.center.z() * pixel_width(view_)))
+                                 : Vec2(0.5 * size);
     const Vec3 rest = ahead ? Vec3(Vec3::Zero()) : ball.center;
     const Look& look = scene_->looks[static_cast<std::size_t>(ball.look)];
 

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
 namespace carom {
 
 namespace {
@@ -9,8 +11,8 @@ namespace {
 GlProgram make_program(const Gl& gl) {
     GlProgram::Sources sources;
     sources.name = "ball shadows";
-    sources.vertex = assemble_shader({fmt::format("TILE_PX {}.0", ShadowTiles::kTilePx)},
-                                     {"tile_vertex"});
+    sources.vertex =
+        assemble_shader({fmt::format("TILE_PX {}.0", ShadowTiles::kTilePx)}, {"tile_vertex"});
     sources.fragment = assemble_shader({}, {"ball_shadow_fragment"});
     sources.attributes = {"a_tile"};
     sources.outputs = {"out_factor"};
@@ -19,9 +21,10 @@ GlProgram make_program(const Gl& gl) {
 
 }  // namespace
 
-BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights)
+BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
+                         std::vector<TileBound> seen)
     : gl_(&gl),
-      tiles_(scene, view, lights),
+      tiles_(scene, view, lights, std::move(seen)),
       program_(make_program(gl)),
       vertex_array_(gl),
       tile_buffer_(gl),

@@ -11,8 +11,9 @@ namespace carom {
 
 class BallShadows {
   public:
-    /// `gl` and `scene` must outlive it.
-    BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights);
+    /// `gl` must outlive it. `seen`: see ShadowTiles.
+    BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
+                std::vector<TileBound> seen = {});
 
     /// Darkens the copy of the static picture in the framebuffer that is bound. All casters of a
     /// pixel are combined before the colour is changed, so that shadows that overlap are not darker

@@ -51,9 +51,8 @@ std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& mot
     const auto power = [](const BallInView& b) {
         return b.center.squaredNorm() - b.radius * b.radius;
     };
-    std::stable_sort(balls.begin(), balls.end(), [&](const BallInView& a, const BallInView& b) {
-        return power(a) > power(b);
-    });
+    std::stable_sort(balls.begin(), balls.end(),
+                     [&](const BallInView& a, const BallInView& b) { return power(a) > power(b); });
     return balls;
 }
 

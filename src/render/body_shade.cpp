@@ -116,9 +116,8 @@ double BodyShade::key_past(const Body& body, const BallInView& ball) const {
     if (const auto* sphere = std::get_if<SphereShape>(&body.shape))
         return along > 0 ? 1 - hidden_part(across, sphere->radius, r) : 1.0;
     if (const auto* capsule = std::get_if<CapsuleShape>(&body.shape))
-        return 1 - hidden_part(
-                       ray_to_segment(ball.center, to_light_, capsule->from, capsule->to),
-                       capsule->radius, r);
+        return 1 - hidden_part(ray_to_segment(ball.center, to_light_, capsule->from, capsule->to),
+                               capsule->radius, r);
     // A box: parallel rays over the disc, on a sunflower spiral.
     const auto& box = std::get<BoxShape>(body.shape);
     constexpr int kRays = 48;

@@ -10,9 +10,9 @@
 namespace carom {
 
 struct BallShade {
-    double key = 1;                     ///< part of the key light that reaches the ball
-    Vec3 contact = Vec3::UnitZ();       ///< view space, unit, towards the nearest surface
-    double contact_strength = 0;        ///< 1 where the ball touches it, 0 three radii away
+    double key = 1;                ///< part of the key light that reaches the ball
+    Vec3 contact = Vec3::UnitZ();  ///< view space, unit, towards the nearest surface
+    double contact_strength = 0;   ///< 1 where the ball touches it, 0 three radii away
 };
 
 /// The static surfaces of a scene, ready to be asked. `scene` must outlive it.
@@ -25,7 +25,7 @@ class BodyShade {
     struct Body {
         SurfaceShape shape;  ///< in view space
         Vec3 center = Vec3::Zero();
-        double bound = 0;    ///< radius around `center`; infinite for planes
+        double bound = 0;  ///< radius around `center`; infinite for planes
     };
     double key_past(const Body& body, const BallInView& ball) const;
 

@@ -18,7 +18,9 @@ double seconds(clockid_t clock) {
 
 /// Linux: the CPU clock of a thread by its kernel id (bits as in the kernel's posix-timers.h:
 /// complement of the id, then "per thread" and "scheduler time").
-clockid_t clock_of(int thread) { return static_cast<clockid_t>((~static_cast<unsigned>(thread) << 3) | 6u); }
+clockid_t clock_of(int thread) {
+    return static_cast<clockid_t>((~static_cast<unsigned>(thread) << 3) | 6u);
+}
 
 }  // namespace
 

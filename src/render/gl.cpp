@@ -11,24 +11,35 @@ namespace {
 
 const char* error_name(GLenum error) {
     switch (error) {
-        case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
-        case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
-        case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
-        case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
-        case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
-        default: return "unknown error";
+        case GL_INVALID_ENUM:
+            return "GL_INVALID_ENUM";
+        case GL_INVALID_VALUE:
+            return "GL_INVALID_VALUE";
+        case GL_INVALID_OPERATION:
+            return "GL_INVALID_OPERATION";
+        case GL_INVALID_FRAMEBUFFER_OPERATION:
+            return "GL_INVALID_FRAMEBUFFER_OPERATION";
+        case GL_OUT_OF_MEMORY:
+            return "GL_OUT_OF_MEMORY";
+        default:
+            return "unknown error";
     }
 }
 
 const char* status_name(GLenum status) {
     switch (status) {
-        case GL_FRAMEBUFFER_UNDEFINED: return "GL_FRAMEBUFFER_UNDEFINED";
-        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
+        case GL_FRAMEBUFFER_UNDEFINED:
+            return "GL_FRAMEBUFFER_UNDEFINED";
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+            return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
         case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
             return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
-        case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER: return "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER";
-        case GL_FRAMEBUFFER_UNSUPPORTED: return "GL_FRAMEBUFFER_UNSUPPORTED";
-        default: return "unknown status";
+        case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER:
+            return "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER";
+        case GL_FRAMEBUFFER_UNSUPPORTED:
+            return "GL_FRAMEBUFFER_UNSUPPORTED";
+        default:
+            return "unknown status";
     }
 }
 
@@ -75,9 +86,9 @@ class Shader {
 
 Gl Gl::load(Loader loader) {
     Gl gl;
-#define CAROM_GL_LOAD(type, name)                               \
-    gl.name = reinterpret_cast<type>(loader("gl" #name));       \
-    if (gl.name == nullptr)                                     \
+#define CAROM_GL_LOAD(type, name)                         \
+    gl.name = reinterpret_cast<type>(loader("gl" #name)); \
+    if (gl.name == nullptr)                               \
         throw Failure(FailureKind::kRun, "the OpenGL library has no entry point gl" #name);
     CAROM_GL_FUNCTIONS(CAROM_GL_LOAD)
 #undef CAROM_GL_LOAD
@@ -174,8 +185,9 @@ GlFramebuffer make_framebuffer(const Gl& gl, const std::string& purpose,
     gl.DrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw Failure(FailureKind::kRun, fmt::format("the framebuffer for {} is incomplete: {} ({:#x})",
-                                                     purpose, status_name(status), status));
+        throw Failure(FailureKind::kRun,
+                      fmt::format("the framebuffer for {} is incomplete: {} ({:#x})", purpose,
+                                  status_name(status), status));
     return framebuffer;
 }
 
@@ -190,9 +202,10 @@ void GlVec4Array::upload(const std::vector<float>& floats) {
     static constexpr float kNothing[4] = {};
     const bool empty = floats.empty();
     gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
-    gl_->BufferData(GL_TEXTURE_BUFFER,
-                    static_cast<GLsizeiptr>(empty ? sizeof kNothing : floats.size() * sizeof(float)),
-                    empty ? kNothing : floats.data(), GL_STREAM_DRAW);
+    gl_->BufferData(
+        GL_TEXTURE_BUFFER,
+        static_cast<GLsizeiptr>(empty ? sizeof kNothing : floats.size() * sizeof(float)),
+        empty ? kNothing : floats.data(), GL_STREAM_DRAW);
 }
 
 void GlVec4Array::bind(int unit) const {

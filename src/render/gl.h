@@ -130,8 +130,8 @@ using GlVertexArray = GlObject<GlVertexArrayTraits>;
 class GlProgram {
   public:
     struct Sources {
-        std::string name;      ///< for messages
-        std::string vertex;    ///< whole text, #version included
+        std::string name;    ///< for messages
+        std::string vertex;  ///< whole text, #version included
         std::string fragment;
         std::vector<const char*> attributes;
         std::vector<const char*> outputs;
@@ -142,9 +142,7 @@ class GlProgram {
 
     void use() const { gl_->UseProgram(object_.name()); }
     /// -1 where the program does not use it, which GL ignores silently and by design.
-    GLint uniform(const char* name) const {
-        return gl_->GetUniformLocation(object_.name(), name);
-    }
+    GLint uniform(const char* name) const { return gl_->GetUniformLocation(object_.name(), name); }
 
   private:
     const Gl* gl_ = nullptr;

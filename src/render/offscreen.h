@@ -1,4 +1,5 @@
-// An OpenGL context without a display, through OSMesa (Mesa's off-screen library, here on llvmpipe).
+// An OpenGL context without a display, through OSMesa (Mesa's off-screen library, here on
+// llvmpipe).
 #pragma once
 
 #include <memory>
@@ -13,7 +14,8 @@ namespace carom {
 /// One thread at a time; several contexts may live in one process.
 class OffscreenContext {
   public:
-    /// Failure(kRun) if there is no context, its version is below 3.3, or an entry point is missing.
+    /// Failure(kRun) if there is no context, its version is below 3.3, or an entry point is
+    /// missing.
     OffscreenContext();
     ~OffscreenContext();
     OffscreenContext(OffscreenContext&&) noexcept;

@@ -38,7 +38,7 @@ class OverlayPainter {
     Rect update_moving_under_layer(double t);
     const Image& moving_under_layer() const;
 
-    /// Clock, labels and title on the finished picture.
+    /// Clock and labels on the finished picture.
     void draw_over(double t, Image& picture) const;
 
   private:

@@ -12,6 +12,8 @@ namespace carom {
 namespace {
 
 constexpr double kClockPx = 17;  // letters, at 720
+constexpr const char* kBefore = "t = ";
+constexpr const char* kAfter = " s";
 
 int whole(double px) { return static_cast<int>(std::ceil(px)); }
 
@@ -19,70 +21,79 @@ int whole(double px) { return static_cast<int>(std::ceil(px)); }
 
 OverlayClock::OverlayClock(const ClockOptions& options, double longest_s, int width_px,
                            int height_px, const std::string& font_family)
-    : font_(font_family, letters_px(kClockPx, height_px)), digits_(options.digits) {
-    length_ = fmt::format("{:.{}f}", std::max(longest_s, 0.0), digits_).size();
-    const double size = font_.size_px();
-    const TextRun before = font_.lay_out("t = "), after = font_.lay_out(" s");
-    const TextRun point = font_.lay_out(".");
-    cell_px_ = static_cast<int>(std::lround(font_.digit_width_px()));
-    point_px_ = whole(point.width_px);
-
-    const int side = whole(0.62 * size);
-    number_x_ = side + whole(before.width_px);
-    const int point_count = digits_ > 0 ? 1 : 0;
-    const int number_px =
-        (static_cast<int>(length_) - point_count) * cell_px_ + point_count * point_px_;
-    const int width = number_x_ + number_px + whole(after.width_px) + side;
-    const int height = whole(1.75 * size);
-    const int border = whole(std::max(overlay_px(18, height_px), 5.0));
+    : digits_(options.digits), picture_width_px_(width_px) {
+    const Font font(font_family, letters_px(kClockPx, height_px));
+    const double size = font.size_px();
     const Corner corner = options.corner;
-    const bool left = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;
-    const bool top = corner == Corner::kTopLeft || corner == Corner::kTopRight;
-    x_ = left ? border : width_px - border - width;
-    y_ = top ? border : height_px - border - height;
-
+    at_left_ = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;
+    const bool at_top = corner == Corner::kTopLeft || corner == Corner::kTopRight;
+    border_px_ = whole(std::max(overlay_px(18, height_px), 5.0));
+    side_px_ = whole(0.62 * size);
+    height_px_ = whole(1.75 * size);
+    y_ = at_top ? border_px_ : height_px - border_px_ - height_px_;
     // On a whole row, so that digits stay sharp.
-    const double base = std::round(0.5 * (height + font_.cap_height_px()));
-    plate_ = Image(width, height);
-    Canvas canvas(plate_);
-    canvas.round_rect(0.5, 0.5, width - 1, height - 1, 0.36 * size);
+    base_px_ = std::round(0.5 * (height_px_ + font.cap_height_px()));
+
+    const TextRun point = font.lay_out(".");
+    number_px_ = side_px_ + whole(font.lay_out(kBefore).width_px);
+    cell_px_ = static_cast<int>(std::lround(font.digit_width_px()));
+    point_px_ = whole(point.width_px);
+    shortest_ = text(0).size();
+    const int fraction_px = digits_ > 0 ? point_px_ + digits_ * cell_px_ : 0;
+    const auto longest = static_cast<int>(text(longest_s).size() - shortest_) + 1;
+    for (int figures = 1; figures <= longest; ++figures)
+        plates_.push_back(make_plate(font, figures * cell_px_ + fraction_px));
+
+    const auto cell = [&](const TextRun& run, int cell_width) {
+        Image picture(cell_width, height_px_);
+        Canvas canvas(picture);
+        font.draw(canvas, run, 0.5 * (cell_width - run.width_px), base_px_, kSlate);
+        canvas.finish();
+        return picture;
+    };
+    for (std::size_t d = 0; d < digit_.size(); ++d)
+        digit_[d] = cell(font.lay_out(std::to_string(d)), cell_px_);
+    point_ = cell(point, point_px_);
+}
+
+OverlayClock::Plate OverlayClock::make_plate(const Font& font, int number_px) const {
+    const TextRun before = font.lay_out(kBefore), after = font.lay_out(kAfter);
+    const int width = number_px_ + number_px + whole(after.width_px) + side_px_;
+    Plate plate{at_left_ ? border_px_ : picture_width_px_ - border_px_ - width,
+                Image(width, height_px_)};
+    Canvas canvas(plate.picture);
+    canvas.round_rect(0.5, 0.5, width - 1, height_px_ - 1, 0.36 * font.size_px());
     canvas.use({kPaper.r, kPaper.g, kPaper.b, 0.74});
     cairo_fill_preserve(canvas.context());
     canvas.use({kSlate.r, kSlate.g, kSlate.b, 0.14});
     cairo_set_line_width(canvas.context(), 1);
     cairo_stroke(canvas.context());
-    font_.draw(canvas, before, side, base, kSlate);
-    font_.draw(canvas, after, number_x_ + number_px, base, kSlate);
+    font.draw(canvas, before, side_px_, base_px_, kSlate);
+    font.draw(canvas, after, number_px_ + number_px, base_px_, kSlate);
     canvas.finish();
-
-    const auto cell = [&](const TextRun& run, int cell_width) {
-        Image picture(cell_width, height);
-        Canvas drawing(picture);
-        font_.draw(drawing, run, 0.5 * (cell_width - run.width_px), base, kSlate);
-        drawing.finish();
-        return picture;
-    };
-    for (std::size_t d = 0; d < digit_.size(); ++d)
-        digit_[d] = cell(font_.lay_out(std::to_string(d)), cell_px_);
-    point_ = cell(point, point_px_);
+    return plate;
 }
 
 std::string OverlayClock::text(double t) const {
-    // The last frame must not read "-0.00", nor widen the number.
-    return fmt::format("{:>{}.{}f}", std::max(t, 0.0), length_, digits_);
+    return fmt::format("{:.{}f}", std::max(t, 0.0), digits_);  // never "-0.00"
 }
 
 OverlayPainter::Rect OverlayClock::rect() const {
-    return {x_, y_, plate_.width_px, plate_.height_px};
+    const Plate& widest = plates_.back();
+    return {widest.x, y_, widest.picture.width_px, height_px_};
 }
 
 void OverlayClock::draw(double t, Image& picture) const {
-    lay_over(plate_, x_, y_, picture);
-    int x = x_ + number_x_;
-    for (const char c : text(t)) {
-        if (c >= '0' && c <= '9')
+    const std::string number = text(t);
+    const Plate& plate = plates_[std::min(number.size() - shortest_, plates_.size() - 1)];
+    lay_over(plate.picture, plate.x, y_, picture);
+    int x = plate.x + number_px_;
+    for (const char c : number) {
+        if (c == '.') {
+            lay_over(point_, x, y_, picture);
+        } else {
             lay_over(digit_[static_cast<std::size_t>(c - '0')], x, y_, picture);
-        if (c == '.') lay_over(point_, x, y_, picture);
+        }
         x += c == '.' ? point_px_ : cell_px_;
     }
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "render/font.h"
 #include "render/overlay.h"
@@ -10,8 +11,8 @@
 
 namespace carom {
 
-/// A light plate with "t = 1.25 s". Its place and every digit's place are the same for the whole
-/// film; what does not change is drawn once, digits are copied in.
+/// A light plate with "t = 1.25 s". It stays the same, and every digit in its place, until the
+/// number needs one digit more. Plates are drawn once, digits are copied in.
 class OverlayClock {
   public:
     /// `longest_s` is the last instant that it will show.
@@ -19,20 +20,32 @@ class OverlayClock {
                  const std::string& font_family);
 
     void draw(double t, Image& picture) const;
+    /// Where the widest plate of the film stands.
     OverlayPainter::Rect rect() const;
 
-    /// The digits and the point of `t`, padded with spaces to the length of the longest instant.
+    /// The digits and the point of `t`.
     std::string text(double t) const;
 
   private:
-    Font font_;
+    struct Plate {
+        int x = 0;  ///< left edge in the picture
+        Image picture;
+    };
+    Plate make_plate(const Font& font, int number_px) const;
+
     int digits_ = 2;
-    std::size_t length_ = 4;
-    int x_ = 0, y_ = 0;  ///< top left corner of the plate
-    int number_x_ = 0;   ///< first digit, from the plate's left edge
-    int cell_px_ = 0;    ///< width of a digit
-    int point_px_ = 0;   ///< width of the decimal point
-    Image plate_;
+    int picture_width_px_ = 0;
+    bool at_left_ = true;
+    int border_px_ = 0;         ///< between a plate and the picture's edges
+    int side_px_ = 0;           ///< between text and the plate's left and right edges
+    int height_px_ = 0;         ///< of a plate
+    double base_px_ = 0;        ///< of the text, below the plate's upper edge
+    int y_ = 0;                 ///< upper edge of the plates in the picture
+    int number_px_ = 0;         ///< first digit, from a plate's left edge
+    int cell_px_ = 0;           ///< width of a digit
+    int point_px_ = 0;          ///< width of the decimal point
+    std::size_t shortest_ = 1;  ///< length of the text on plates_[0]; each has one digit more
+    std::vector<Plate> plates_;
     std::array<Image, 10> digit_;  ///< as high as the plate
     Image point_;
 };

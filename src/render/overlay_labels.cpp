@@ -236,11 +236,12 @@ void OverlayLabels::draw(double t, const std::vector<Rect>& obstacles, Image& pi
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!places[i] || !places[i]->away) continue;
         if (!canvas) canvas.emplace(picture);
+        // The shortest way from the ball's top to the label.
         const Rect& rect = places[i]->rect;
-        const bool above = rect.y < wanted[i].bottom_y;
-        cairo_move_to(canvas->context(), rect.x + 0.5 * rect.width,
-                      above ? rect.y + rect.height - gap_px_ : rect.y + gap_px_);
-        cairo_line_to(canvas->context(), wanted[i].center_x, wanted[i].bottom_y + gap_px_);
+        const double x = wanted[i].center_x, y = wanted[i].bottom_y + gap_px_;
+        cairo_move_to(canvas->context(), std::clamp(x, double(rect.x), double(rect.x + rect.width)),
+                      std::clamp(y, rect.y + gap_px_, rect.y + rect.height - gap_px_));
+        cairo_line_to(canvas->context(), x, y);
     }
     if (canvas) {
         canvas->use({kSlate.r, kSlate.g, kSlate.b, 0.55});

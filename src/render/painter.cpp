@@ -15,6 +15,7 @@
 #include "render/offscreen.h"
 #include "render/overlay.h"
 #include "render/picture_layer.h"
+#include "render/shadow_tiles.h"
 #include "render/static_picture.h"
 #include "render/surface_table.h"
 
@@ -64,15 +65,20 @@ class Painter::Impl {
         gl_.Disable(GL_DITHER);
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
         gl_.Enable(GL_FRAMEBUFFER_SRGB);
-        color_ = make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA,
-                              GL_UNSIGNED_BYTE);
+        color_ =
+            make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
         frame_ = make_framebuffer(gl_, "the picture", {&color_});
         background_.emplace(gl_, view, lights, surfaces_, scale_of(scene, camera));
         overlay_.emplace(scene, motion, view);
         draw_static_layer();
         if (overlay_->has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
-        if (surfaces_.count() > 0 && !scene.balls.empty())
-            shadows_.emplace(gl_, scene, view, lights);
+        if (surfaces_.count() > 0 && !scene.balls.empty()) {
+            // On one plane the shadows' own bounds are tight.
+            std::vector<TileBound> seen;
+            if (surfaces_.can_occlude())
+                seen = background_->tile_bounds(view, ShadowTiles::kTilePx);
+            shadows_.emplace(gl_, scene, view, lights, std::move(seen));
+        }
         balls_.emplace(gl_, scene, view, lights, surfaces_.can_occlude());
         check_not_blank();
         gl_.check("preparing the picture");
@@ -161,8 +167,9 @@ class Painter::Impl {
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_.name());
         gl_.ReadPixels(width_px_ / 2, height_px_ / 2, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
         if (pixel[3] != 255)
-            throw Failure(FailureKind::kRun, "the driver draws blank pictures and reports no error (" +
-                                                 context_.renderer() + ")");
+            throw Failure(FailureKind::kRun,
+                          "the driver draws blank pictures and reports no error (" +
+                              context_.renderer() + ")");
     }
 
     const Scene& scene_;

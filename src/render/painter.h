@@ -39,7 +39,8 @@ class Painter {
     };
     std::map<std::string, DrawnEffect> effects() const;
 
-    /// CPU seconds of the calling thread since construction, for --stats.
+    /// CPU seconds since construction, for --stats: of the calling thread and of the driver's own
+    /// rasteriser threads (render/driver_clock.h). Drawing includes the overlay and the set-up.
     double draw_cpu_s() const;
     double read_cpu_s() const;
 

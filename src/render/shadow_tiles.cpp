@@ -74,13 +74,15 @@ int tile_of(double px, int count) {
 
 }  // namespace
 
-ShadowTiles::ShadowTiles(const Scene& scene, const View& view, const Lights& lights)
+ShadowTiles::ShadowTiles(const Scene& scene, const View& view, const Lights& lights,
+                         std::vector<TileBound> seen)
     : to_light_(view_direction(view, lights.to_light)),
       tan_radius_(lights.tan_radius),
       pixel_width_(carom::pixel_width(view)),
       middle_px_(0.5 * view.width_px(), 0.5 * view.height_px()),
       columns_((view.width_px() + kTilePx - 1) / kTilePx),
       rows_((view.height_px() + kTilePx - 1) / kTilePx),
+      seen_(std::move(seen)),
       marked_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
     for (const Surface& surface : scene.surfaces) {
         if (const auto* plane = std::get_if<PlaneShape>(&surface.shape))
@@ -97,8 +99,8 @@ ShadowTiles::ShadowTiles(const Scene& scene, const View& view, const Lights& lig
 
 void ShadowTiles::add_plane(const PlaneShape& plane, const View& view) {
     if (!seen_from_front(plane, view)) return;
-    planes_.push_back({view_direction(view, plane.normal),
-                       plane.offset_m - plane.normal.dot(view.eye())});
+    planes_.push_back(
+        {view_direction(view, plane.normal), plane.offset_m - plane.normal.dot(view.eye())});
 }
 
 void ShadowTiles::add_body(const Vec3& center, double radius, const View& view) {
@@ -150,7 +152,21 @@ ShadowTiles::Window ShadowTiles::bound_of(const std::vector<Vec3>& points) const
             std::min(rows_ - 1, tile_of(high.y() + 1, rows_))};
 }
 
-void ShadowTiles::mark_hull(const std::vector<Vec3>& points, const Window& window) {
+bool ShadowTiles::reaches(std::size_t tile, const BallInView& ball) const {
+    if (seen_.empty()) return true;
+    const TileBound& seen = seen_[tile];
+    if (seen.radius < 0) return false;
+    const Vec3 rel = ball.center - seen.center;
+    const double ambient_reach = kAmbientReach * ball.radius + seen.radius;
+    if (rel.squaredNorm() < ambient_reach * ambient_reach) return true;
+    const double along = rel.dot(to_light_);
+    const double key_reach =
+        ball.radius + seen.radius + std::max(0.0, along + seen.radius) * tan_radius_;
+    return along > -seen.radius && rel.squaredNorm() - along * along < key_reach * key_reach;
+}
+
+void ShadowTiles::mark_hull(const std::vector<Vec3>& points, const Window& window,
+                            const BallInView& ball) {
     const std::vector<Vec2> hull = convex_hull(project(points));
     if (hull.empty()) return;
     double low = hull.front().y(), high = low;
@@ -179,10 +195,12 @@ void ShadowTiles::mark_hull(const std::vector<Vec3>& points, const Window& windo
         const int begin = std::max(window.first_column, tile_of(left - 1, columns_));
         const int end = std::min(window.last_column, tile_of(right + 1, columns_));
         for (int column = begin; column <= end; ++column) {
-            std::vector<int>& list = marked_[static_cast<std::size_t>(row) *
-                                                 static_cast<std::size_t>(columns_) +
-                                             static_cast<std::size_t>(column)];
-            if (list.empty() || list.back() != caster_) list.push_back(caster_);
+            const std::size_t tile =
+                static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                static_cast<std::size_t>(column);
+            std::vector<int>& list = marked_[tile];
+            if ((list.empty() || list.back() != caster_) && reaches(tile, ball))
+                list.push_back(caster_);
         }
     }
 }
@@ -197,7 +215,7 @@ void ShadowTiles::cast_on_plane(const Plane& plane, const BallInView& ball) {
         const Vec3 u = plane.normal.unitOrthogonal();
         const double r = std::sqrt(reach * reach - height * height);
         const Vec3 foot = ball.center - plane.normal * height;
-        mark_hull(octagon(foot, r * u, r * plane.normal.cross(u)), whole());
+        mark_hull(octagon(foot, r * u, r * plane.normal.cross(u)), whole(), ball);
     }
 
     // Key light: an ellipse where the cylinder behind the ball meets the plane, widened by the
@@ -209,12 +227,12 @@ void ShadowTiles::cast_on_plane(const Plane& plane, const BallInView& ball) {
     if (ball.radius * ball.radius < kFaintest * spread * spread) return;
     const double r = ball.radius + spread;
     const Vec3 level = to_light_ - plane.normal * facing;
-    const Vec3 stretch = level.norm() > 1e-9 ? Vec3(level.normalized())
-                                             : Vec3(plane.normal.unitOrthogonal());
+    const Vec3 stretch =
+        level.norm() > 1e-9 ? Vec3(level.normalized()) : Vec3(plane.normal.unitOrthogonal());
     const double stretched = r / std::max(kGrazing, facing - tan_radius_);
     mark_hull(octagon(ball.center - to_light_ * (height / facing), stretched * stretch,
                       r * plane.normal.cross(stretch)),
-              whole());
+              whole(), ball);
 }
 
 void ShadowTiles::cast_on_body(const Body& body, const BallInView& ball) {
@@ -222,7 +240,7 @@ void ShadowTiles::cast_on_body(const Body& body, const BallInView& ball) {
     const Vec3 rel = body.center - ball.center;
     const double reach = kAmbientReach * ball.radius;
     if (rel.norm() < body.radius + reach)
-        mark_hull(segment_corners(ball.center, ball.center, reach, to_light_), window);
+        mark_hull(segment_corners(ball.center, ball.center, reach, to_light_), window, ball);
 
     const double behind = -rel.dot(to_light_);  // of the body's middle, away from the lamp
     const double far = behind + body.radius;
@@ -233,7 +251,7 @@ void ShadowTiles::cast_on_body(const Body& body, const BallInView& ball) {
     const double near = std::max(0.0, behind - body.radius);
     mark_hull(segment_corners(ball.center - to_light_ * far, ball.center - to_light_ * near, r,
                               to_light_),
-              window);
+              window, ball);
 }
 
 void ShadowTiles::update(const std::vector<BallInView>& balls) {
@@ -248,13 +266,13 @@ void ShadowTiles::update(const std::vector<BallInView>& balls) {
     casters_.clear();
     for (int row = 0; row < rows_; ++row) {
         for (int column = 0; column < columns_; ++column) {
-            const std::vector<int>& list = marked_[static_cast<std::size_t>(row) *
-                                                       static_cast<std::size_t>(columns_) +
-                                                   static_cast<std::size_t>(column)];
+            const std::vector<int>& list =
+                marked_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                        static_cast<std::size_t>(column)];
             if (list.empty()) continue;
-            for (const std::size_t value : {static_cast<std::size_t>(column),
-                                            static_cast<std::size_t>(row), casters_.size() / 4,
-                                            list.size()})
+            for (const std::size_t value :
+                 {static_cast<std::size_t>(column), static_cast<std::size_t>(row),
+                  casters_.size() / 4, list.size()})
                 tiles_.push_back(static_cast<float>(value));
             for (const int caster : list) {
                 const BallInView& ball = balls[static_cast<std::size_t>(caster)];

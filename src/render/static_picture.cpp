@@ -1,14 +1,27 @@
 #include "render/static_picture.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
 namespace carom {
 
 namespace {
 
-GlProgram make_program(const Gl& gl) {
+constexpr float kSky = 1e29f;  ///< depths beyond belong to no surface (surfaces.glsl: kFar)
+
+GlProgram make_program(const Gl& gl, const SurfaceTable& table) {
+    std::vector<std::string> defines;
+    if (table.planes > 0) defines.push_back("PLANES");
+    if (table.boxes > 0) defines.push_back("BOXES");
+    if (table.spheres > 0) defines.push_back("SPHERES");
+    if (table.capsules > 0) defines.push_back("CAPSULES");
+    if (table.count() > 1 || table.can_occlude()) defines.push_back("SEVERAL");
     GlProgram::Sources sources;
     sources.name = "static picture";
     sources.vertex = assemble_shader({}, {"fullscreen_vertex"});
-    sources.fragment = assemble_shader({}, {"surfaces", "static_fragment"});
+    sources.fragment = assemble_shader(defines, {"surfaces", "static_fragment"});
     sources.outputs = {"out_color", "out_front", "out_facts"};
     return GlProgram(gl, sources);
 }
@@ -16,7 +29,8 @@ GlProgram make_program(const Gl& gl) {
 }  // namespace
 
 StaticPicture::StaticPicture(const Gl& gl, const View& view, const Lights& lights,
-                             const SurfaceTable& table, const PictureScale& scale) {
+                             const SurfaceTable& table, const PictureScale& scale)
+    : gl_(&gl) {
     const int width = view.width_px(), height = view.height_px();
     color_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     front_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
@@ -24,7 +38,7 @@ StaticPicture::StaticPicture(const Gl& gl, const View& view, const Lights& light
     const GlFramebuffer all =
         make_framebuffer(gl, "the static picture", {&color_, &front_, &facts_});
 
-    const GlProgram program = make_program(gl);
+    const GlProgram program = make_program(gl, table);
     set_common_uniforms(gl, program, view, lights);
     gl.Uniform1i(program.uniform("u_surfaces"), 0);
     gl.Uniform4i(program.uniform("u_counts"), table.planes, table.boxes, table.spheres,
@@ -43,6 +57,40 @@ StaticPicture::StaticPicture(const Gl& gl, const View& view, const Lights& light
     gl.check("drawing the static picture");
 
     color_framebuffer_ = make_framebuffer(gl, "copies of the static picture", {&color_});
+    facts_framebuffer_ = make_framebuffer(gl, "facts of the static picture", {&facts_});
+}
+
+std::vector<TileBound> StaticPicture::tile_bounds(const View& view, int tile_px) const {
+    const int width = view.width_px(), height = view.height_px();
+    std::vector<std::uint32_t> facts(4 * static_cast<std::size_t>(width) *
+                                     static_cast<std::size_t>(height));
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, facts_framebuffer_.name());
+    gl_->ReadPixels(0, 0, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, facts.data());
+    gl_->check("reading the static picture back");
+
+    const double pixel = pixel_width(view);
+    const int columns = (width + tile_px - 1) / tile_px, rows = (height + tile_px - 1) / tile_px;
+    std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(columns) *
+                                           static_cast<std::size_t>(rows));
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::size_t at =
+                4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x));
+            const Vec3 ray((x + 0.5 - 0.5 * width) * pixel, (y + 0.5 - 0.5 * height) * pixel, 1);
+            Eigen::AlignedBox3d& box =
+                boxes[static_cast<std::size_t>(y / tile_px) * static_cast<std::size_t>(columns) +
+                      static_cast<std::size_t>(x / tile_px)];
+            for (const std::size_t layer : {at, at + 1}) {
+                const float depth = std::bit_cast<float>(facts[layer]);
+                if (depth < kSky) box.extend(Vec3(ray * static_cast<double>(depth)));
+            }
+        }
+    }
+    std::vector<TileBound> bounds(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (!boxes[i].isEmpty()) bounds[i] = {boxes[i].center(), 0.5 * boxes[i].diagonal().norm()};
+    return bounds;
 }
 
 }  // namespace carom

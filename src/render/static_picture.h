@@ -1,6 +1,8 @@
 // What does not move: drawn once per camera, copied below every frame.
 #pragma once
 
+#include <vector>
+
 #include "render/gl.h"
 #include "render/lights.h"
 #include "render/surface_table.h"
@@ -9,8 +11,14 @@ namespace carom {
 
 /// Lengths that the picture's atmosphere scales with, metres.
 struct PictureScale {
-    double fade_m = 50;      ///< distance at which planes melt into the horizon
-    double ao_reach_m = 0.3; ///< how far a crevice darkens its surroundings
+    double fade_m = 50;       ///< distance at which planes melt into the horizon
+    double ao_reach_m = 0.3;  ///< how far a crevice darkens its surroundings
+};
+
+/// A sphere around all that is seen of the static surfaces in one tile of the picture, view space.
+struct TileBound {
+    Vec3 center = Vec3::Zero();
+    double radius = -1;  ///< negative: nothing but sky
 };
 
 /// The static picture and, per pixel, what the passes of a frame need to know about it.
@@ -24,16 +32,20 @@ class StaticPicture {
     /// layers that do not move may be drawn once.
     const GlFramebuffer& color_framebuffer() const { return color_framebuffer_; }
 
-    /// RGBA32UI: bits of the depth of the nearer and of the farther layer; 10 bits each of the parts
-    /// of the colour that are key light and ambient light, and of the nearer layer's share of the
-    /// pixel; normal, octahedral, 2 x 16 bits. Row 0 is the picture's top.
+    /// RGBA32UI: bits of the depth of the nearer and of the farther layer; 10 bits each of the
+    /// parts of the colour that are key light and ambient light, and of the nearer layer's share of
+    /// the pixel; normal, octahedral, 2 x 16 bits. Row 0 is the picture's top.
     const GlTexture& facts() const { return facts_; }
     /// Colour of the nearer layer alone.
     const GlTexture& front() const { return front_; }
 
+    /// Bounds of square tiles, row by row from the top left; reads the facts back.
+    std::vector<TileBound> tile_bounds(const View& view, int tile_px) const;
+
   private:
+    const Gl* gl_;
     GlTexture color_, front_, facts_;
-    GlFramebuffer color_framebuffer_;
+    GlFramebuffer color_framebuffer_, facts_framebuffer_;
 };
 
 }  // namespace carom

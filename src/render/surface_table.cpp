@@ -88,11 +88,11 @@ SurfaceTable make_surface_table(const Scene& scene, const View& view) {
             record = plane_record(plane, look, view);
             return true;
         });
-    table.boxes = append<BoxShape>(scene, table.vec4s,
-                                   [&](const BoxShape& box, const Look&, Record& record) {
-                                       record = box_record(box, view);
-                                       return true;
-                                   });
+    table.boxes =
+        append<BoxShape>(scene, table.vec4s, [&](const BoxShape& box, const Look&, Record& record) {
+            record = box_record(box, view);
+            return true;
+        });
     table.spheres = append<SphereShape>(
         scene, table.vec4s, [&](const SphereShape& sphere, const Look&, Record& record) {
             put(record, 0, view_point(view, sphere.center), sphere.radius);

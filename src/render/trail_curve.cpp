@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
+
 namespace carom {
 
 TrailCurve::TrailCurve(const Trajectory& trajectory, const View& view, double duration)
-    : trajectory_(&trajectory), view_(&view), duration_(duration), steps_(steps_of_piece(0)) {}
+    : trajectory_(&trajectory), view_(&view), duration_(duration) {
+    CAROM_CHECK(trajectory.pieces().size(), >, 0u);
+    steps_ = steps_of_piece(0);
+}
 
 double TrailCurve::end_of_piece(std::size_t piece) const {
     const auto& pieces = trajectory_->pieces();

@@ -71,6 +71,7 @@ class Setter {
         report_.error_in_source(source_, {}, std::move(message));
         return nullptr;
     }
+    bool follow(Node& root, const std::vector<Step>& steps, Node value);
     Node* entry_of(const Place& place, const Step& step, bool last);
     Node* key_of(const Place& place, const Step& step);
     Node* named_of(const Place& place, const Step& step, bool last);
@@ -199,19 +200,31 @@ bool Setter::open(Place& place, Node& node, const Step& step) {
     return false;
 }
 
-void Setter::set(Node& root, const std::vector<Step>& steps, Node value) {
+bool Setter::follow(Node& root, const std::vector<Step>& steps, Node value) {
     Place place{&root, Section::kScene, nullptr};
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const bool last = i + 1 == steps.size();
         Node* node = entry_of(place, steps[i], last);
-        if (node == nullptr) return;
+        if (node == nullptr) return false;
         if (last) {
             value.key = node->key;
             *node = std::move(value);
         } else if (!open(place, *node, steps[i])) {
-            return;
+            return false;
         }
     }
+    return true;
+}
+
+void Setter::set(Node& root, const std::vector<Step>& steps, Node value) {
+    const Node* top = root.find(steps.front().name);
+    const std::optional<Node> before = top == nullptr ? std::nullopt : std::optional(*top);
+    if (follow(root, steps, std::move(value))) return;
+    // A path that leads nowhere must not leave its first steps behind.
+    if (before)
+        *root.find(before->key) = *before;
+    else if (!root.children.empty() && root.children.back().key == steps.front().name)
+        root.children.pop_back();
 }
 
 std::optional<Node> parse_value(const Override& override, Report& report, int source) {

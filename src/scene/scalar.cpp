@@ -90,7 +90,17 @@ Scalar resolve_scalar(const std::string& text, bool quoted) {
     return scalar;
 }
 
-std::string number_text(double value) { return fmt::format("{}", value); }
+std::string number_text(double value) {
+    const std::string plain = fmt::format("{}", value);
+    std::string powers = fmt::format("{:g}", value);  // 1e+09, of which people write 1e9
+    const std::size_t e = powers.find('e');
+    if (e == std::string::npos) return plain;
+    const std::size_t digits = powers.find_first_not_of("+-0", e + 1);
+    powers = powers.substr(0, e + 1) + (powers[e + 1] == '-' ? "-" : "") + powers.substr(digits);
+    double back = 0;
+    std::from_chars(powers.data(), powers.data() + powers.size(), back);
+    return back == value && powers.size() <= plain.size() ? powers : plain;
+}
 
 std::string quoted_excerpt(const std::string& text) {
     constexpr std::size_t kLongest = 80;

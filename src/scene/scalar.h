@@ -23,7 +23,7 @@ struct Scalar {
 /// `quoted` scalars are text, whatever they look like.
 Scalar resolve_scalar(const std::string& text, bool quoted);
 
-/// The shortest text that reads back as the same double: 0.5, 1e-09, 20.
+/// The shortest text that reads back as the same double: 0.5, 1e-9, 20.
 std::string number_text(double value);
 
 /// The text in single quotes, cut to a bearable length, for messages.

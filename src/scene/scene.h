@@ -24,9 +24,9 @@ struct VirtualBody {
 };
 
 struct Material {
-    std::string name;                 ///< "" is the default material, always at index 0
-    VirtualBody virtual_body;         ///< `restitution: e` is stored as x/v = -2 ln e / K, v = 1
-    std::optional<double> friction;   ///< Coulomb's mu against a reference of 1; none if not named
+    std::string name;                ///< "" is the default material, always at index 0
+    VirtualBody virtual_body;        ///< `restitution: e` is stored as x/v = -2 ln e / K, v = 1
+    std::optional<double> friction;  ///< Coulomb's mu against a reference of 1; none if not named
     SourceMark mark;
 };
 
@@ -57,11 +57,11 @@ enum class LookStyle {
 };
 
 struct Look {
-    std::string name;                    ///< "" for a default
+    std::string name;  ///< "" for a default
     LookStyle style = LookStyle::kPlain;
-    Color color;                         ///< the main colour
-    Color second_color;                  ///< stripes, seams, the checker's other squares, lines
-    double tile_m = 0.5;                 ///< edge of a square of checker and grid, m
+    Color color;          ///< the main colour
+    Color second_color;   ///< stripes, seams, the checker's other squares, lines
+    double tile_m = 0.5;  ///< edge of a square of checker and grid, m
 };
 
 struct PlaneShape {
@@ -70,8 +70,8 @@ struct PlaneShape {
 };
 struct BoxShape {
     Vec3 center = Vec3::Zero();
-    Vec3 size = Vec3::Ones();              ///< full edges, m
-    Quat orientation = Quat::Identity();   ///< world from box
+    Vec3 size = Vec3::Ones();             ///< full edges, m
+    Quat orientation = Quat::Identity();  ///< world from box
 };
 struct SphereShape {
     Vec3 center = Vec3::Zero();
@@ -95,9 +95,9 @@ struct Surface {
 
 struct Ball {
     std::string name;
-    double radius = 0.1;           ///< m
-    double mass = 1;               ///< kg
-    double inertia_factor = 0.4;   ///< k of I = k m r^2: 2/5 solid, 2/3 thin shell
+    double radius = 0.1;          ///< m
+    double mass = 1;              ///< kg
+    double inertia_factor = 0.4;  ///< k of I = k m r^2: 2/5 solid, 2/3 thin shell
     int material = 0;
     int look = 0;
     Vec3 position = Vec3::Zero();  ///< of the centre, m
@@ -113,13 +113,13 @@ enum class Solver { kWorld, kQuick };
 struct Simulation {
     /// s; empty: until everything rests, at most max_duration.
     std::optional<double> duration = 10.0;
-    double max_duration = 600;              ///< s
-    Vec3 gravity = Vec3(0, 0, -9.81);       ///< m/s^2
-    double restitution_constant = 4.0;      ///< K of Eq. 7, 1/s
+    double max_duration = 600;          ///< s
+    Vec3 gravity = Vec3(0, 0, -9.81);   ///< m/s^2
+    double restitution_constant = 4.0;  ///< K of Eq. 7, 1/s
     Method method = Method::kFixed;
-    double step = 0.00025;                  ///< s, method fixed only
+    double step = 0.00025;  ///< s, method fixed only
     Solver solver = Solver::kWorld;
-    int iterations = 20;                    ///< solver quick only
+    int iterations = 20;  ///< solver quick only
 };
 
 struct Camera {
@@ -140,9 +140,9 @@ struct Film {
     int width_px = 1280;
     int height_px = 720;
     FrameRate fps;
-    double start = 0;              ///< s of the motion that frame 0 shows
-    double speed = 1;              ///< seconds of motion per second of film
-    std::vector<double> stills;    ///< s of the motion
+    double start = 0;            ///< s of the motion that frame 0 shows
+    double speed = 1;            ///< seconds of motion per second of film
+    std::vector<double> stills;  ///< s of the motion
 };
 
 enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
@@ -150,8 +150,8 @@ enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
 /// A vertical scale in metres. Its foot stands at (x, y, from); chosen beside the motion if empty.
 struct RulerOptions {
     std::optional<Vec2> at;
-    double from = 0;             ///< m
-    std::optional<double> to;    ///< m; default: the next metre or half metre above the motion
+    double from = 0;           ///< m
+    std::optional<double> to;  ///< m; default: the next metre or half metre above the motion
 };
 struct ClockOptions {
     Corner corner = Corner::kTopLeft;
@@ -174,15 +174,15 @@ struct Overlay {
 };
 
 struct Scene {
-    std::string file;   ///< as the user named it, for messages
+    std::string file;  ///< as the user named it, for messages
     std::string title;
     Simulation simulation;
     std::vector<Material> materials;  ///< [0] is the default: restitution 1, no friction
     std::vector<PairRule> pairs;
     std::vector<Look> looks;
     std::vector<Surface> surfaces;
-    std::vector<Ball> balls;          ///< `repeat` is unrolled, in the scene's order
-    std::optional<Camera> camera;     ///< empty: framed around the motion
+    std::vector<Ball> balls;       ///< `repeat` is unrolled, in the scene's order
+    std::optional<Camera> camera;  ///< empty: framed around the motion
     Film film;
     Overlay overlay;
 };

@@ -12,13 +12,19 @@ namespace {
 /// balls' speeds is none. It matters where the threshold is 0, without gravity.
 constexpr double kSpeedRounding = 1e-13;
 
-/// A contact whose speed is within this fraction of the correction speed of its target counts as
-/// tied with it, and its target is lowered by twice as much: 1e-8 m/s at a step of 1 ms.
+/// A contact whose speed is this close to its target, relative to the correction speed, counts as
+/// tied with it, and its target is lowered by twice as much: 2e-8 m/s at a step of 1 ms.
 constexpr double kTie = 1e-6;
 
 Velocities of_other(const Contact& contact, const std::vector<Velocities>& balls) {
     if (contact.other.is_surface) return {};
     return balls[static_cast<std::size_t>(contact.other.index)];
+}
+
+double largest_speed(const std::vector<Velocities>& balls) {
+    double speed = 0;
+    for (const Velocities& ball : balls) speed = std::max(speed, ball.linear.norm());
+    return speed;
 }
 
 Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
@@ -61,6 +67,7 @@ void ContactSolver::add_joints(std::vector<Contact>& contacts,
                                const std::vector<Velocities>& before) {
     if (contacts.empty()) return;
     islands_.mark_lonely(contacts);
+    tie_speed_ = kTie * rules_.correction_speed + kSpeedRounding * largest_speed(before);
     feedback_.resize(contacts.size());  // before any joint points into it
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         prepare(contacts[i], before);
@@ -91,12 +98,12 @@ double ContactSolver::free_speed(const Contact& contact) const {
 double ContactSolver::target_speed(const Contact& contact) const {
     const double overlap = std::max(contact.depth, 0.0);
     const double target = std::min(erp_ * overlap / rules_.step, rules_.correction_speed);
+    if (contact.alone) return target;
     // A contact that already moves at its target speed needs no force, exactly. ODE's solver
     // (Dantzig's method) breaks such ties only by luck, and otherwise gives up with "LCP internal
     // error, s <= 0". A ball at rest beside a wall is one, or one that a wall has pushed away.
-    if (contact.alone) return target;
-    const double tie = kTie * rules_.correction_speed;
-    return std::abs(free_speed(contact) - target) <= tie ? target - 2 * tie : target;
+    const bool tied = std::abs(free_speed(contact) - target) <= tie_speed_;
+    return tied ? target - 2 * tie_speed_ : target;
 }
 
 dContact ContactSolver::joint_of(const Contact& contact) const {

@@ -44,8 +44,7 @@ class Islands {
 /// An impact bounces (Newton's law with the pair's coefficient, on the velocities before the step)
 /// and takes no position correction, which would otherwise replace a small coefficient by
 /// erp depth / dt. Any other contact must separate at least at the speed by which ODE's default ERP
-/// corrects its overlap, at most at `correction_speed`; one with a gap may close it within the
-/// step.
+/// corrects its overlap, at most at `correction_speed`.
 ///
 /// Friction is Coulomb's cone where the contact is alone in its island: the first friction axis
 /// lies along the slip that the contact would have after the step without friction. A ball's
@@ -72,7 +71,8 @@ class ContactSolver {
 
     OdeWorld& world_;
     ContactRules rules_;
-    double erp_;  ///< of the world, 1 per step
+    double erp_;            ///< of the world, 1 per step
+    double tie_speed_ = 0;  ///< closer than this to its target, a contact's speed is tied, m/s
     Islands islands_;
     std::vector<dJointFeedback> feedback_;  ///< one per contact of the step
 };

@@ -106,12 +106,16 @@ FixedRun::FixedRun(const Scene& scene)
     touching_.resize(balls);
     impact_.resize(balls);
     read_state();
-    // QuickStep shuffles its rows with ODE's own random numbers, which go on from run to run.
+    // QuickStep shuffles its rows with ODE's own random numbers, which go on from run to run (and
+    // are one sequence for the process: `quick` repeats itself only if runs do not overlap).
     dRandSetSeed(0);
 }
 
 void FixedRun::fail(const std::string& text) const {
-    throw Failure(FailureKind::kRun, fmt::format("ODE failed at t = {} s: {}", time(), text));
+    const bool exact_solver = scene_.simulation.solver == Solver::kWorld;
+    throw Failure(FailureKind::kRun,
+                  fmt::format("ODE failed at t = {} s: {}; a smaller simulation.step{} may help",
+                              time(), text, exact_solver ? " or simulation.solver: quick" : ""));
 }
 
 void FixedRun::step() {
@@ -184,7 +188,6 @@ SimulationResult FixedRun::finish(double duration) {
     for (const Surface& surface : scene_.surfaces) motion.surface_names.push_back(surface.name);
     for (Recorder& recorder : recorders_) motion.balls.push_back(recorder.finish());
     motion.events = log_.finish();
-    std::erase_if(motion.events, [duration](const Event& e) { return e.time > duration; });
     motion.peaks = find_peaks(scene_, motion);
 
     result.report.steps = steps_;

@@ -18,10 +18,9 @@
 namespace carom {
 
 /// Steps the scene to its duration, or until everything rests. Steps are never cut short: the last
-/// one may reach beyond the duration, where the motion is evaluated, and events after it are
-/// dropped. With duration `rest` the motion ends EventLog::kRestSteps steps after the last ball
-/// came to rest, at max_duration at the latest, and always there without gravity, which is what
-/// makes balls rest.
+/// one ends at the duration or beyond it, and the motion is evaluated up to the duration. With
+/// duration `rest` the motion ends EventLog::kRestSteps steps after the last ball has settled, at
+/// max_duration at the latest, and always there without gravity, which is what makes balls rest.
 ///
 /// Throws Failure(kRun) as simulate() does.
 SimulationResult simulate_fixed(const Scene& scene, const std::stop_token& stop,

@@ -64,7 +64,8 @@ OdeSpacePtr make_ball_space(std::size_t balls) {
 
 void start_ode() {
     static const OdeLibrary library;
-    thread_local const bool ready = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
+    const auto all_data = static_cast<unsigned>(dAllocateMaskAll);
+    thread_local const bool ready = dAllocateODEDataForThread(all_data) != 0;
     if (!ready) throw Failure(FailureKind::kRun, "cannot start ODE: no memory for this thread");
     if (dCheckConfiguration("ODE_double_precision") == 0)
         throw Failure(FailureKind::kRun,

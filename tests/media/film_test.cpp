@@ -1,5 +1,6 @@
 // The film as a file: what a player finds in it, and when it appears.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstring>
 
@@ -107,8 +108,9 @@ TEST_F(FilmTest, HoldsWhatPlayersNeed) {
 // Frame k stands at k / fps, and the film lasts frames / fps, both exactly.
 TEST_F(FilmTest, Mp4TimesAreExact) {
     constexpr int kFrames = 47;
-    for (const auto& [numerator, denominator] :
-         {std::pair{60, 1}, {30000, 1001}, {25, 1}, {24000, 1001}, {1, 2}, {1000, 7}}) {
+    for (const AVRational rate : {AVRational{60, 1}, AVRational{30000, 1001}, AVRational{25, 1},
+                                  AVRational{24000, 1001}, AVRational{1, 2}, AVRational{1000, 7}}) {
+        const int numerator = rate.num, denominator = rate.den;
         const Input input =
             open_film(make_film("a.mp4", small_film(numerator, denominator), kFrames));
         ASSERT_TRUE(input);
@@ -170,15 +172,31 @@ TEST_F(FilmTest, OneFrameIsAFilm) {
     EXPECT_EQ(open_film(path)->streams[0]->nb_frames, 1);
 }
 
-TEST_F(FilmTest, TwoRunsGiveTheSameBytes) {
-    for (const std::string extension : {".mp4", ".mkv"}) {
-        FilmOptions options = small_film();
-        options.title = "twice";
-        const std::string one = bytes_of(make_film("one" + extension, options, 60));
-        const std::string two = bytes_of(make_film("two" + extension, options, 60));
-        EXPECT_GT(one.size(), 1000U);
-        EXPECT_TRUE(one == two) << extension;
-    }
+/// Fills all memory that malloc gives with a byte, so that reading what was never written shows.
+class FilledMemory {
+  public:
+    explicit FilledMemory(int byte) { mallopt(M_PERTURB, byte); }
+    ~FilledMemory() { mallopt(M_PERTURB, 0); }
+    FilledMemory(const FilledMemory&) = delete;
+    FilledMemory& operator=(const FilledMemory&) = delete;
+};
+
+TEST_F(FilmTest, RunsGiveTheSameBytesWhateverTheMemoryHeld) {
+    for (const std::string extension : {".mp4", ".mkv"})
+        for (const auto& [width, height] : {std::pair{160, 90}, {192, 208}, {320, 180}}) {
+            FilmOptions options = small_film();
+            options.width_px = width;
+            options.height_px = height;
+            options.title = "again";
+            std::string first;
+            for (const int byte : {0, 1, 85, 170, 254}) {
+                const FilledMemory filled(byte);
+                const std::string film = bytes_of(make_film("a" + extension, options, 40));
+                if (first.empty()) first = film;
+                EXPECT_GT(film.size(), 1000U);
+                EXPECT_TRUE(film == first) << extension << " " << width << " " << byte;
+            }
+        }
 }
 
 TEST_F(FilmTest, AppearsOnlyWhenFinished) {
@@ -236,7 +254,7 @@ TEST_F(FilmTest, NothingIsKeptOfNothing) {
 TEST_F(FilmTest, AFullDiskIsAFailureThatLeavesNothing) {
     for (const std::string extension : {".mp4", ".mkv"}) {
         const std::string path = in_folder("a" + extension);
-        for (const rlim_t room : {0, 1000, 100000}) {
+        for (const rlim_t room : {0UL, 1000UL, 100000UL}) {
             const FullDisk full(room);
             testing::internal::CaptureStderr();
             const std::string text = failure_text(FailureKind::kOutput, [&] {

@@ -207,15 +207,39 @@ TEST(Ruler, AnEndlessStaffHasAsManyTicksAsThePictureHolds) {
 
 // ---- The clock ---------------------------------------------------------------------------------
 
-TEST(Clock, TextKeepsItsLength) {
+TEST(Clock, TextHasTheDigitsAskedFor) {
     const OverlayClock clock(ClockOptions{Corner::kTopLeft, 2}, 12.5, 1280, 720,
                              kOverlayFontFamily);
-    EXPECT_EQ(clock.text(0), " 0.00");
-    EXPECT_EQ(clock.text(1.25), " 1.25");
+    EXPECT_EQ(clock.text(0), "0.00");
+    EXPECT_EQ(clock.text(1.25), "1.25");
     EXPECT_EQ(clock.text(12.5), "12.50");
-    EXPECT_EQ(clock.text(-1e-17), " 0.00");
+    EXPECT_EQ(clock.text(-1e-17), "0.00");
     const OverlayClock whole(ClockOptions{Corner::kTopLeft, 0}, 9, 1280, 720, kOverlayFontFamily);
     EXPECT_EQ(whole.text(3.2), "3");
+}
+
+/// Columns that the clock covers at t.
+std::pair<int, int> covered(const OverlayClock& clock, double t) {
+    Image picture(1280, 720);
+    clock.draw(t, picture);
+    int least = 1280, most = -1;
+    for (int x = 0; x < 1280; ++x)
+        for (int y = 0; y < 720; ++y)
+            if (alpha_at(picture, x, y) > 0) least = std::min(least, x), most = std::max(most, x);
+    return {least, most};
+}
+
+TEST(Clock, WidthChangesOnlyWithTheNumberOfDigits) {
+    for (const Corner corner : {Corner::kTopLeft, Corner::kTopRight}) {
+        const OverlayClock clock(ClockOptions{corner, 2}, 10, 1280, 720, kOverlayFontFamily);
+        const auto first = covered(clock, 0);
+        for (const double t : {1.11, 4.44, 9.99}) EXPECT_EQ(covered(clock, t), first);
+        const auto [least, most] = covered(clock, 10);
+        fmt::print("columns {} to {}, at 10 s {} to {}\n", first.first, first.second, least, most);
+        EXPECT_GT(most - least, first.second - first.first + 5);
+        EXPECT_EQ(clock.rect().x, least);
+        EXPECT_EQ(clock.rect().width, most - least + 1);
+    }
 }
 
 TEST(Clock, OnlyTheDigitThatChangesChangesPixels) {

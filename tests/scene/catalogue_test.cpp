@@ -39,11 +39,11 @@ TEST(Catalogue, IsInsideTheRangesOfTable1) {
         double mass_low, mass_high, circumference_low, circumference_high;
     };
     const double pi = std::numbers::pi;
-    for (const Row& row : {Row{"basketball", 0.567, 0.650, 0.749, 0.78},
-                           Row{"volleyball", 0.260, 0.280, 0.65, 0.67},
-                           Row{"football", 0.420, 0.445, 0.685, 0.695},
-                           Row{"tennis", 0.056, 0.0594, pi * 0.06541, pi * 0.06858},
-                           Row{"table_tennis", 0.0027, 0.0027, pi * 0.04, pi * 0.04}}) {
+    for (const Row& row :
+         {Row{"basketball", 0.567, 0.650, 0.749, 0.78}, Row{"volleyball", 0.260, 0.280, 0.65, 0.67},
+          Row{"football", 0.420, 0.445, 0.685, 0.695},
+          Row{"tennis", 0.056, 0.0594, pi * 0.06541, pi * 0.06858},
+          Row{"table_tennis", 0.0027, 0.0027, pi * 0.04, pi * 0.04}}) {
         const Preset* preset = find_preset(row.name);
         ASSERT_NE(preset, nullptr);
         EXPECT_NEAR(preset->mass, (row.mass_low + row.mass_high) / 2, 1e-12) << row.name;

@@ -72,7 +72,8 @@ TEST(Reader, ReadsTheContractsExample) {
     const BoxShape& plate = std::get<BoxShape>(scene.surfaces[1].shape);
     EXPECT_EQ(plate.size, Vec3(1, 1, 0.001));
     // 30 degrees about y turn x towards -z.
-    EXPECT_TRUE((plate.orientation * Vec3::UnitX()).isApprox(Vec3(std::sqrt(0.75), 0, -0.5), 1e-15));
+    EXPECT_TRUE(
+        (plate.orientation * Vec3::UnitX()).isApprox(Vec3(std::sqrt(0.75), 0, -0.5), 1e-15));
     EXPECT_EQ(std::get<SphereShape>(scene.surfaces[2].shape).radius, 0.5);
     EXPECT_EQ(std::get<CapsuleShape>(scene.surfaces[3].shape).to, Vec3(1, 0, 0));
     EXPECT_EQ(scene.surfaces[3].material, 1);
@@ -85,7 +86,7 @@ TEST(Reader, ReadsTheContractsExample) {
     EXPECT_EQ(a.material, 2);
     EXPECT_EQ(scene.looks[static_cast<std::size_t>(a.look)].style, LookStyle::kStriped);
     EXPECT_EQ(scene.looks[static_cast<std::size_t>(a.look)].color.r, 0xc8 / 255.0);
-    EXPECT_EQ(a.mark.line, 24);
+    EXPECT_EQ(a.mark.line, 25);
     const Ball& b = scene.balls[1];
     EXPECT_EQ(b.preset, "basketball");
     EXPECT_EQ(b.position, Vec3(1, 0, 1.8 + b.radius));
@@ -103,7 +104,8 @@ TEST(Reader, ReadsTheContractsExample) {
 }
 
 TEST(Reader, FillsInTheDefaultsOfTheStructs) {
-    const Scene read = scene_of("carom: 1\noverlay: {ruler: true, clock: true, trail: true, labels: true}");
+    const Scene read =
+        scene_of("carom: 1\noverlay: {ruler: true, clock: true, trail: true, labels: true}");
     const Scene made;
     EXPECT_EQ(read.simulation.duration, made.simulation.duration);
     EXPECT_EQ(read.simulation.max_duration, made.simulation.max_duration);
@@ -161,8 +163,9 @@ TEST(Reader, FillsInTheDefaultsOfBodies) {
 
 /// A virtual body of the material `m`, read with K.
 VirtualBody body_of(const std::string& material, double constant = 4) {
-    const Scene scene = scene_of("carom: 1\nsimulation: {restitution_constant: " +
-                                 std::to_string(constant) + "}\nmaterials: {m: " + material + "}");
+    const Scene scene =
+        scene_of("carom: 1\nsimulation: {restitution_constant: " + std::to_string(constant) +
+                 "}\nmaterials: {m: " + material + "}");
     return scene.materials.at(1).virtual_body;
 }
 
@@ -229,8 +232,9 @@ TEST(Reader, ReadsDurationUntilRest) {
 
 TEST(Reader, ReadsOverlayOptions) {
     const Overlay overlay =
-        scene_of("carom: 1\noverlay: {ruler: {at: [1, 2], from: 0.5, to: 2}, clock: {corner: "
-                 "bottom_right, digits: 3}, trail: {seconds: 2, width_px: 4}, labels: {size_px: 9}}")
+        scene_of(
+            "carom: 1\noverlay: {ruler: {at: [1, 2], from: 0.5, to: 2}, clock: {corner: "
+            "bottom_right, digits: 3}, trail: {seconds: 2, width_px: 4}, labels: {size_px: 9}}")
             .overlay;
     EXPECT_EQ(overlay.ruler->at, Vec2(1, 2));
     EXPECT_EQ(overlay.ruler->from, 0.5);

@@ -40,8 +40,8 @@ TEST(Repeat, JitterIsUniformBelowItsBound) {
     ASSERT_EQ(balls.size(), 10000U);
     Vec3 sum = Vec3::Zero();
     for (std::size_t n = 0; n < balls.size(); ++n) {
-        const Vec3 moved = balls[n].position - Vec3(static_cast<double>(n / 100),
-                                                    static_cast<double>(n % 100), 0);
+        const Vec3 moved =
+            balls[n].position - Vec3(static_cast<double>(n / 100), static_cast<double>(n % 100), 0);
         EXPECT_GE(moved.minCoeff(), -1e-12);  // rounding of coordinates up to 100
         EXPECT_LT(moved.maxCoeff(), 0.001 + 1e-12);
         sum += moved;
@@ -95,13 +95,15 @@ TEST(Repeat, RefusesWhatDoesNotFit) {
     EXPECT_EQ(errors("c", "{count: [1000000, 1000000, 1000000], spacing: 1}"),
               "t.yaml:3:65: error: this makes 1000000000000000000 balls; a scene may have at most "
               "1000000\n");
-    EXPECT_EQ(errors("c", "{count: [2, 2, 2], spacing: 0.19}"),
-              "t.yaml:3:5: error: the balls 'c_0_0_0' and 'c_0_0_1' overlap by 0.01 m at the start\n");
+    EXPECT_EQ(
+        errors("c", "{count: [2, 2, 2], spacing: 0.19}"),
+        "t.yaml:3:5: error: the balls 'c_0_0_0' and 'c_0_0_1' overlap by 0.01 m at the start\n");
     EXPECT_EQ(errors(std::string(60, 'n'), "{count: [1, 1, 1], spacing: 1}"),
               "t.yaml:3:12: error: with 'repeat' the name grows to '" + std::string(60, 'n') +
                   "_0_0_0', longer than 64 characters\n");
-    EXPECT_EQ(errors("c", "{count: [2, 1, 1], spacing: 1}}\n  - {name: c_1_0_0, radius: 0.1, "
-                          "position: [9, 9, 9]"),
+    EXPECT_EQ(errors("c",
+                     "{count: [2, 1, 1], spacing: 1}}\n  - {name: c_1_0_0, radius: 0.1, "
+                     "position: [9, 9, 9]"),
               "t.yaml:4:12: error: the name 'c_1_0_0' is taken already, by the ball in line 3\n");
 }
 

@@ -24,8 +24,7 @@ inline Scene scene_of(const std::string& text, const std::vector<Override>& over
 }
 
 /// Everything that is wrong with a text, one per line, "" if nothing is.
-inline std::string errors_of(const std::string& text,
-                             const std::vector<Override>& overrides = {}) {
+inline std::string errors_of(const std::string& text, const std::vector<Override>& overrides = {}) {
     const SceneResult result = read_scene(text, "t.yaml", overrides);
     EXPECT_EQ(result.scene.has_value(), !result.diagnostics.has_errors());
     return all_text(result.diagnostics);

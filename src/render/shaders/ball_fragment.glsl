@@ -63,42 +63,62 @@ vec3 lit(vec3 body, vec3 n, vec3 d_unit, float blur) {
     return body * light + kKey * (kGloss.y * key * pow(shine, kGloss.x));
 }
 
-void main() {
-    vec3 d = ray_through(gl_FragCoord.xy);
-    float dd = dot(d, d);
-    vec3 w = v_ray.z * vec3((gl_FragCoord.xy - v_ray.xy) * u_pixel, 0.0) - v_offset;
-    float s = dot(w, d) / dd;
-    vec3 u = w - d * s;
-    float rho = length(u);
+// Vector from the centre to the nearest point of a ray, and that point's depth; in radii.
+vec4 nearest_on_ray(vec2 pixel, vec3 d) {
+    vec3 w = v_ray.z * vec3((pixel - v_ray.xy) * u_pixel, 0.0) - v_offset;
+    float s = dot(w, d) / dot(d, d);
+    return vec4(w - d * s, v_ray.z - s);
+}
 
-    // Distance from the outline in pixels: rho changes by `slope` per pixel, along u.
-    float nearest_depth = v_ray.z - s;  // depth of the ray's nearest point, in radii
-    if (nearest_depth <= 0.0) discard;
-    float scale = nearest_depth * u_pixel;  // a pixel there, in radii
-    float flat_part = max(length(u.xy), 1e-6) / max(rho, 1e-6);
-    float slope = scale * flat_part;
-    float size = 1.0 / slope;
-    float alpha = coverage((1.0 - rho) * size, size, u.xy / max(length(u.xy), 1e-6));
+void main() {
+    vec2 pixel = gl_FragCoord.xy;
+    vec3 d = ray_through(pixel);
+    vec4 nearest = nearest_on_ray(pixel, d);
+    if (nearest.w <= 0.0) discard;
+    vec3 u = nearest.xyz;
+    float rho = max(length(u), 1e-6), rho_picture = max(length(u.xy), 1e-6);
+
+    // Distance from the outline in pixels: rho changes by 1 / size per pixel, along u.
+    float scale = nearest.w * u_pixel;  // a pixel there, in radii
+    float size = rho / (scale * rho_picture);
+    float edge = (1.0 - rho) * size;
+    float alpha = coverage(edge, size, u.xy / rho_picture);
     if (alpha <= 0.0) discard;
 
-    // Shade the middle of what is covered, not a point that may lie beside the ball.
-    float inner = min(rho, max(1.0 - 0.3 * slope, 0.5));
-    u *= inner / max(rho, 1e-6);
-    float h = sqrt(1.0 - inner * inner);
-    float inverse_length = inversesqrt(dd);
-    vec3 d_unit = d * inverse_length;
-    vec3 n = u - d_unit * h;
-
-    // How far n moves to the next pixel: across the ray, and along it where the surface tilts away.
-    vec3 nx = scale * (vec3(1, 0, 0) + d_unit * (u.x / h));
-    vec3 ny = scale * (vec3(0, 1, 0) + d_unit * (u.y / h));
+    // One point inside; at the outline four, since there colours change fast within a pixel.
     mat3 view_from_ball = mat3(v_row_x.xyz, v_row_y, v_row_z);
-    vec3 body = marking(n * view_from_ball, nx * view_from_ball, ny * view_from_ball);
-    vec3 color = min(lit(body, n, d_unit, scale), 1.0);
+    int points = edge < 1.0 ? 4 : 1;
+    float part = points == 1 ? 1.0 : 0.5;  // of a pixel's width
+    vec3 color = vec3(0.0);
+    float weight = 0.0, depth = 0.0;
+    for (int i = 0; i < points; ++i) {
+        vec2 at = vec2(i & 1, i >> 1) - 0.5;
+        at = points == 1 ? vec2(0.0) : 0.5 * vec2(at.x - 0.5 * at.y, at.y + 0.5 * at.x);
+        vec3 d_unit = normalize(ray_through(pixel + at));
+        u = nearest_on_ray(pixel + at, d_unit).xyz;
+        float out_by = length(u);
+        // A point beside the ball moves to its rim, and counts little.
+        float inner = min(out_by, max(1.0 - 0.15 / size, 0.5));
+        u *= inner / max(out_by, 1e-6);
+        float h = sqrt(1.0 - inner * inner);
+        vec3 n = u - d_unit * h;
+
+        // How far n moves to the next point, with t the depth in radii and X a pixel on z = 1:
+        // dn/dx = t (X - d^(d^.X) + d^ (u.X) / h), d^ the ray's unit vector.
+        float t = nearest.w - h * inversesqrt(dot(d, d));
+        float reach = part * t * u_pixel;
+        vec3 nx = reach * (vec3(1, 0, 0) + d_unit * (u.x / h - d_unit.x));
+        vec3 ny = reach * (vec3(0, 1, 0) + d_unit * (u.y / h - d_unit.y));
+        vec3 body = marking(n * view_from_ball, nx * view_from_ball, ny * view_from_ball);
+        float counts = out_by < 1.0 ? 1.0 : 1e-3;
+        color += counts * min(lit(body, n, d_unit, scale), 1.0);
+        weight += counts;
+        depth = v_ray.w * t;
+    }
+    color /= weight;
 
 #ifdef OCCLUDED
     uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
-    float depth = v_ray.w * (nearest_depth - h * inverse_length);
     float front_part = float(facts.z >> 20) / 1023.0;
     if (depth > uintBitsToFloat(facts.y)) discard;
     if (depth > uintBitsToFloat(facts.x)) {

@@ -14,8 +14,8 @@ uniform float u_light_tan;  // tangent of the key light's angular radius
 const vec3 kKey = vec3(0.70, 0.68, 0.645);
 const vec3 kSkyLight = vec3(0.33, 0.355, 0.39);
 const vec3 kGroundLight = vec3(0.235, 0.225, 0.215);
-const vec3 kHorizon = vec3(0.775, 0.795, 0.815);
-const vec3 kZenith = vec3(0.47, 0.575, 0.68);
+const vec3 kHorizon = vec3(0.79, 0.80, 0.805);
+const vec3 kZenith = vec3(0.42, 0.54, 0.665);
 const vec3 kNadir = vec3(0.60, 0.61, 0.62);
 
 vec3 ray_through(vec2 pixel) { return vec3((pixel - u_center) * u_pixel, 1.0); }
@@ -25,7 +25,7 @@ vec3 ambient_light(vec3 n) { return mix(kGroundLight, kSkyLight, 0.5 + 0.5 * dot
 
 vec3 background(vec3 d) {
     float up = dot(d, u_up) * inversesqrt(dot(d, d));
-    return up > 0.0 ? mix(kHorizon, kZenith, smoothstep(0.0, 0.75, up))
+    return up > 0.0 ? mix(kHorizon, kZenith, smoothstep(0.0, 0.62, up))
                     : mix(kHorizon, kNadir, smoothstep(0.0, 0.6, -up));
 }
 

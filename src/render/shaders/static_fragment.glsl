@@ -69,15 +69,16 @@ vec3 albedo(Hit hit, vec3 d, float pixel) {
     return pattern(hit.item, vec2(dot(u, p), dot(v, p)) + origin, extent);
 }
 
-// 1 in the open, less where other surfaces come close within reach of the normal.
-float open_sky(vec3 p, vec3 n, int item) {
+// 1 in the open, less where other surfaces come close within reach of the normal; looked up at
+// `taps` of four heights, beginning with `first`.
+float open_sky(vec3 p, vec3 n, int item, int first, int taps) {
     float closed = 0.0;
-    for (int k = 1; k <= 4; ++k) {
-        float h = u_ao_reach_m * float(k * k) / 16.0;
-        float gap = clamp(nearest_distance(p + n * h, item), 0.0, h);
-        closed += (1.0 - gap / h) * 0.25;
+    for (int i = 0; i < taps; ++i) {
+        float k = float(first + i + 1);
+        float h = u_ao_reach_m * k * k / 16.0;
+        closed += 1.0 - clamp(nearest_distance(p + n * h, item), 0.0, h) / h;
     }
-    return 1.0 - 0.75 * closed;
+    return 1.0 - 0.75 * closed / float(max(taps, 1));
 }
 
 struct Shaded {
@@ -86,14 +87,25 @@ struct Shaded {
     float ambient;  // part that is ambient light
 };
 
-Shaded shade(Hit hit, vec3 d, float pixel, int first, int samples) {
+// `sample_index` 0 ... 63 takes an eighth of the lamp and one height of the crevices, which differ from one
+// sample of an edge to the next; -1 takes all of them.
+Shaded shade(Hit hit, vec3 d, float pixel, int sample_index) {
     if (hit.item < 0) return Shaded(background(d), 0.0, 0.0);
     vec3 p = hit.t * d;
     vec3 body = albedo(hit, d, pixel);
     float facing = max(dot(hit.n, u_light), 0.0);
-    float visible = key_visibility(p + hit.n * (1e-4 * hit.t), hit.item, first, samples);
+    float tilt = min(dot(hit.n, d), -1e-3);
+    vec3 px = hit.t * pixel * (vec3(1, 0, 0) - d * (hit.n.x / tilt));
+    vec3 py = hit.t * pixel * (vec3(0, 1, 0) - d * (hit.n.y / tilt));
+    float visible = 1.0, open = 1.0;
+#ifdef SEVERAL
+    bool all = sample_index < 0;
+    visible = key_visibility(p + hit.n * (1e-4 * hit.t), px, py, hit.item,
+                             all ? 0 : (sample_index & 7) * 8, all ? 64 : 8);
+    open = open_sky(p, hit.n, hit.item, all ? 0 : sample_index & 3, all ? 4 : 1);
+#endif
     vec3 direct = body * kKey * (facing * visible);
-    vec3 ambient = body * ambient_light(hit.n) * open_sky(p, hit.n, hit.item);
+    vec3 ambient = body * ambient_light(hit.n) * open;
 
     float fade = 0.0;
     if (hit.item < u_counts.x) {
@@ -137,11 +149,13 @@ void main() {
         }
         vec3 d = ray_through(gl_FragCoord.xy + at);
         Hit hit = nearest_surface(d);
+#ifdef SEVERAL
         bool whole = i == 0 && !hit.edge;
         if (i == 0 && hit.edge) last = 1 + kProbes + kSamples;
-        int samples = whole ? 64 : (fine < 0 ? 0 : 8);
-        Shaded s = shade(hit, d, whole ? u_pixel : 0.25 * u_pixel, whole ? 0 : (fine & 7) * 8,
-                         samples);
+#else
+        const bool whole = true;  // one plane has no edge
+#endif
+        Shaded s = shade(hit, d, whole ? u_pixel : 0.25 * u_pixel, whole ? -1 : max(fine, 0));
         if (i == 0) {
             t_near = t_far = hit.t;
             n_near = n_far = hit.n;

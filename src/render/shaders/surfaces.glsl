@@ -1,4 +1,6 @@
 // Rays, shadows and distances of the static surfaces (surface_table.h says what a record holds).
+// PLANES, BOXES, SPHERES and CAPSULES are defined where the scene has such; a software rasteriser
+// runs through every branch, so that code for what is not there would cost as much as the rest.
 
 uniform samplerBuffer u_surfaces;
 uniform ivec4 u_counts;  // planes, boxes, spheres, capsules
@@ -37,6 +39,7 @@ void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
     }
 }
 
+#ifdef PLANES
 void meet_planes(inout Hit hit, vec3 d) {
     for (int i = 0; i < u_counts.x; ++i) {
         vec4 plane = surface(i, 0);
@@ -44,7 +47,9 @@ void meet_planes(inout Hit hit, vec3 d) {
         if (toward < -1e-7) take(hit, plane.w / toward, i, plane.xyz, 0, d);
     }
 }
+#endif
 
+#ifdef BOXES
 void meet_boxes(inout Hit hit, vec3 d) {
     for (int i = 0; i < u_counts.y; ++i) {
         int item = u_counts.x + i;
@@ -88,7 +93,9 @@ void meet_boxes(inout Hit hit, vec3 d) {
         }
     }
 }
+#endif
 
+#ifdef SPHERES
 void meet_spheres(inout Hit hit, vec3 d) {
     float dd = dot(d, d);
     for (int i = 0; i < u_counts.z; ++i) {
@@ -104,7 +111,9 @@ void meet_spheres(inout Hit hit, vec3 d) {
             take(hit, t, item, (t * d - sphere.xyz) / sphere.w, 0, d);
     }
 }
+#endif
 
+#ifdef CAPSULES
 // Distance between the ray and the segment a ... a + b, as (distance, depth there).
 vec2 ray_to_segment(vec3 d, vec3 a, vec3 b) {
     float dd = dot(d, d), bb = dot(b, b), db = dot(d, b);
@@ -151,21 +160,33 @@ void meet_capsules(inout Hit hit, vec3 d) {
         }
     }
 }
+#endif
 
 Hit nearest_surface(vec3 d) {
     Hit hit = Hit(kFar, -1, vec3(0.0, 0.0, -1.0), 0, false, vec2(0.0));
+#ifdef PLANES
     meet_planes(hit, d);
+#endif
+#ifdef BOXES
     meet_boxes(hit, d);
+#endif
+#ifdef SPHERES
     meet_spheres(hit, d);
+#endif
+#ifdef CAPSULES
     meet_capsules(hit, d);
+#endif
     return hit;
 }
 
 // Part of the key light that reaches p past the static bodies. Planes cast no shadow: a wall between
 // the lamp and the scene would put everything in the dark.
-// Boxes are sampled over the lamp's disc with `samples` rays, beginning at `first` of 64.
-float key_visibility(vec3 p, int own, int first, int samples) {
+// Boxes are sampled over the lamp's disc and over the pixel, which reaches px and py along the
+// surface, with `samples` rays, beginning at `first` of 64.
+float key_visibility(vec3 p, vec3 px, vec3 py, int own, int first, int samples) {
+    float blur = sqrt(0.5 * (dot(px, px) + dot(py, py)));
     float visible = 1.0;
+#ifdef BOXES
     vec3 side = normalize(abs(u_light.x) < 0.7 ? cross(u_light, vec3(1, 0, 0))
                                                : cross(u_light, vec3(0, 1, 0)));
     vec3 side2 = cross(u_light, side);
@@ -181,14 +202,21 @@ float key_visibility(vec3 p, int own, int first, int samples) {
         vec3 half_edge = vec3(rx.w, ry.w, rz.w);
         vec3 ro = -vec3(dot(rx.xyz, rel), dot(ry.xyz, rel), dot(rz.xyz, rel));
         float hidden = 0.0;
+        float start = (float(first) + 0.5) * 2.39996323;
+        vec2 spoke = vec2(cos(start), sin(start));
         for (int k = 0; k < n; ++k) {
-            // Sunflower spiral: even over the disc for any count.
+            // Sunflower spiral: even over the disc for any count. A step turns by the golden angle.
             float place = float(first + k) + 0.5;
-            float turn = place * 2.39996323;
-            vec2 disc = sqrt(fract(place / 64.0)) * u_light_tan * vec2(cos(turn), sin(turn));
+            vec2 disc = sqrt(place / 64.0) * u_light_tan * spoke;
+            spoke = vec2(-0.73736888 * spoke.x - 0.67549029 * spoke.y,
+                         0.67549029 * spoke.x - 0.73736888 * spoke.y);
             vec3 l = u_light + disc.x * side + disc.y * side2;
+            // Another turn for the place within the pixel, so that the two do not go together.
+            vec2 within = fract(vec2(place * 0.75487767, place * 0.56984029)) - 0.5;
+            vec3 off = within.x * px + within.y * py;
+            vec3 from = ro + vec3(dot(rx.xyz, off), dot(ry.xyz, off), dot(rz.xyz, off));
             vec3 rd = safe_direction(vec3(dot(rx.xyz, l), dot(ry.xyz, l), dot(rz.xyz, l)));
-            vec3 middle = -ro / rd, reach = abs(half_edge / rd);
+            vec3 middle = -from / rd, reach = abs(half_edge / rd);
             vec3 enter = middle - reach, leave = middle + reach;
             float t_in = max(max(enter.x, enter.y), enter.z);
             float t_out = min(min(leave.x, leave.y), leave.z);
@@ -196,48 +224,62 @@ float key_visibility(vec3 p, int own, int first, int samples) {
         }
         visible *= 1.0 - hidden / float(max(n, 1));
     }
+#endif
+#ifdef SPHERES
     for (int i = 0; i < u_counts.z; ++i) {
         int item = u_counts.x + u_counts.y + i;
         vec4 sphere = surface(item, 0);
         vec3 rel = sphere.xyz - p;
         float along = dot(rel, u_light);
         if (item != own && along > 0.0)
-            visible *= 1.0 - hidden_by_ball(along, length(rel - along * u_light), sphere.w, 0.0);
+            visible *= 1.0 - hidden_by_ball(along, length(rel - along * u_light), sphere.w, blur);
     }
+#endif
+#ifdef CAPSULES
     for (int i = 0; i < u_counts.w; ++i) {
         int item = u_counts.x + u_counts.y + u_counts.z + i;
         vec4 a = surface(item, 0);
         vec2 nearest = ray_to_segment(u_light, a.xyz - p, surface(item, 1).xyz);
         if (item != own && nearest.y > 0.0)
-            visible *= 1.0 - hidden_by_ball(nearest.y, nearest.x, a.w, 0.0);
+            visible *= 1.0 - hidden_by_ball(nearest.y, nearest.x, a.w, blur);
     }
+#endif
     return visible;
 }
 
 // Distance from p to the nearest surface other than `own` (negative inside).
 float nearest_distance(vec3 p, int own) {
     float nearest = kFar;
-    int planes = u_counts.x, boxes = planes + u_counts.y, spheres = boxes + u_counts.z;
-    for (int i = 0; i < spheres + u_counts.w; ++i) {
-        vec4 a = surface(i, 0);
-        float distance_i = kFar;
-        if (i < planes) {
-            distance_i = dot(a.xyz, p) - a.w;
-        } else if (i < boxes) {
-            vec4 rx = surface(i, 1), ry = surface(i, 2), rz = surface(i, 3);
-            vec3 rel = p - a.xyz;
-            vec3 q = abs(vec3(dot(rx.xyz, rel), dot(ry.xyz, rel), dot(rz.xyz, rel))) -
-                     vec3(rx.w, ry.w, rz.w);
-            distance_i = length(max(q, 0.0)) + min(max(max(q.x, q.y), q.z), 0.0);
-        } else if (i < spheres) {
-            distance_i = length(p - a.xyz) - a.w;
-        } else {
-            vec3 b = surface(i, 1).xyz;
-            vec3 rel = p - a.xyz;
-            distance_i =
-                length(rel - b * clamp(dot(rel, b) / max(dot(b, b), 1e-20), 0.0, 1.0)) - a.w;
-        }
-        if (i != own) nearest = min(nearest, distance_i);
+    int item = 0;
+#ifdef PLANES
+    for (int i = 0; i < u_counts.x; ++i, ++item) {
+        vec4 plane = surface(item, 0);
+        if (item != own) nearest = min(nearest, dot(plane.xyz, p) - plane.w);
     }
+#endif
+#ifdef BOXES
+    for (int i = 0; i < u_counts.y; ++i, ++item) {
+        vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
+        vec3 rel = p - surface(item, 0).xyz;
+        vec3 q = abs(vec3(dot(rx.xyz, rel), dot(ry.xyz, rel), dot(rz.xyz, rel))) -
+                 vec3(rx.w, ry.w, rz.w);
+        float away = length(max(q, 0.0)) + min(max(max(q.x, q.y), q.z), 0.0);
+        if (item != own) nearest = min(nearest, away);
+    }
+#endif
+#ifdef SPHERES
+    for (int i = 0; i < u_counts.z; ++i, ++item) {
+        vec4 sphere = surface(item, 0);
+        if (item != own) nearest = min(nearest, length(p - sphere.xyz) - sphere.w);
+    }
+#endif
+#ifdef CAPSULES
+    for (int i = 0; i < u_counts.w; ++i, ++item) {
+        vec4 a = surface(item, 0);
+        vec3 b = surface(item, 1).xyz, rel = p - a.xyz;
+        float along = clamp(dot(rel, b) / max(dot(b, b), 1e-20), 0.0, 1.0);
+        if (item != own) nearest = min(nearest, length(rel - b * along) - a.w);
+    }
+#endif
     return nearest;
 }
