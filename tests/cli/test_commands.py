@@ -59,7 +59,7 @@ class ExitCodes(ProgramTest):
         self.assert_exit(4, run("render", self.scene, "-o", self.folder / "none" / "a.mp4"))
 
     def test_a_reader_that_goes_is_no_error(self):
-        process = subprocess.Popen([CAROM, "simulate", self.scene, "-o", "-", "--rate", "1000000"],
+        process = subprocess.Popen([CAROM, "simulate", self.scene, "-o", "-", "--rate", "100000"],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         process.stdout.read(10)
         process.stdout.close()

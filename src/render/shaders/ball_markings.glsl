@@ -82,8 +82,8 @@ const vec2 kGloss = vec2(14.0, 0.05);
 #elif STYLE == VOLLEYBALL
 
 // 18 panels: six faces of three strips, the strips of neighbouring faces across one another. The
-// outer strips of a face have the main and the second colour, the middle one is white.
-const vec3 kWhite = vec3(0.80, 0.80, 0.78);
+// middle strip of a face has the main colour, the outer ones the second colour and yellow.
+const vec3 kYellow = vec3(0.85, 0.52, 0.035);
 
 // The strips of the face around +-x, where `across` runs over the strips; `facing` is |x|.
 vec3 face(float across, vec3 gradient, float facing, vec3 gradient_facing, vec3 px, vec3 py,
@@ -94,7 +94,7 @@ vec3 face(float across, vec3 gradient, float facing, vec3 gradient_facing, vec3 
     float width_lower = extent(gradient + kThird * gradient_facing, px, py);
     const float kSeam = 0.010;
     seam = max(band(upper, kSeam, width_upper), band(lower, kSeam, width_lower));
-    return mix(mix(v_second, kWhite, above(lower, width_lower)), v_color,
+    return mix(mix(v_second, v_color, above(lower, width_lower)), kYellow,
                above(upper, width_upper));
 }
 
