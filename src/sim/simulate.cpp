@@ -1,6 +1,6 @@
 #include "sim/simulate.h"
 
-#include "core/failure.h"
+#include "sim/exact.h"
 #include "sim/fixed.h"
 
 namespace carom {
@@ -11,10 +11,9 @@ SimulationResult simulate(const Scene& scene, std::stop_token stop,
         case Method::kFixed:
             return simulate_fixed(scene, stop, progress);
         case Method::kExact:
-            break;
+            return simulate_exact(scene, stop, progress);
     }
-    throw Failure(FailureKind::kRun,
-                  "method exact is not available in this version: use simulation.method: fixed");
+    return {};
 }
 
 }  // namespace carom

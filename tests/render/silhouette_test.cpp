@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         MarkedBall{"striped", LookStyle::kStriped, {0.8, 0.1, 0.15}, kWhite, 1e-4},
         MarkedBall{"basketball", LookStyle::kBasketball, kOrange, kDark, 1e-4},
-        MarkedBall{"volleyball", LookStyle::kVolleyball, {0.95, 0.76, 0.2}, {0.1, 0.3, 0.6}, 1e-4},
+        MarkedBall{"volleyball", LookStyle::kVolleyball, kWhite, {0.14, 0.31, 0.61}, 1e-4},
         MarkedBall{"football", LookStyle::kFootball, kWhite, kDark, 1e-4},
         MarkedBall{"tennis", LookStyle::kTennis, {0.8, 0.88, 0.2}, kWhite, 1e-4},
         MarkedBall{"table_tennis", LookStyle::kTableTennis, kWhite, {0.8, 0.1, 0.1}, 1e-4}),

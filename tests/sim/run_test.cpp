@@ -241,12 +241,6 @@ TEST(RunFails, WhereStepsCannotBeCounted) {
     EXPECT_NE(failure_of(scene).find("raise simulation.step"), std::string::npos);
 }
 
-TEST(RunFails, ForTheExactMethod) {
-    Scene scene = scene_of(1, 0, kGravity, 1e-3);
-    scene.simulation.method = Method::kExact;
-    EXPECT_NE(failure_of(scene).find("not available in this version"), std::string::npos);
-}
-
 TEST(Run, AStepLongerThanTheDurationIsOneStep) {
     Scene scene = scene_of(1, 0, kGravity, 1.0);
     add_plane(scene);

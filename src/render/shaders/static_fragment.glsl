@@ -70,12 +70,12 @@ vec3 albedo(Hit hit, vec3 d, float pixel) {
 }
 
 // 1 in the open, less where other surfaces come close within reach of the normal; looked up at
-// `taps` of four heights, beginning with `first`.
+// `taps` of three heights, beginning with `first`.
 float open_sky(vec3 p, vec3 n, int item, int first, int taps) {
     float closed = 0.0;
     for (int i = 0; i < taps; ++i) {
         float k = float(first + i + 1);
-        float h = u_ao_reach_m * k * k / 16.0;
+        float h = u_ao_reach_m * k * k / 9.0;
         closed += 1.0 - clamp(nearest_distance(p + n * h, item), 0.0, h) / h;
     }
     return 1.0 - 0.75 * closed / float(max(taps, 1));
@@ -87,7 +87,7 @@ struct Shaded {
     float ambient;  // part that is ambient light
 };
 
-// `sample_index` 0 ... 63 takes an eighth of the lamp and one height of the crevices, which differ from one
+// `sample_index` 0 ... 35 takes an eighth of the lamp and one height of the crevices, which differ from one
 // sample of an edge to the next; -1 takes all of them.
 Shaded shade(Hit hit, vec3 d, float pixel, int sample_index) {
     if (hit.item < 0) return Shaded(background(d), 0.0, 0.0);
@@ -102,7 +102,7 @@ Shaded shade(Hit hit, vec3 d, float pixel, int sample_index) {
     bool all = sample_index < 0;
     visible = key_visibility(p + hit.n * (1e-4 * hit.t), px, py, hit.item,
                              all ? 0 : (sample_index & 7) * 8, all ? 64 : 8);
-    open = open_sky(p, hit.n, hit.item, all ? 0 : sample_index & 3, all ? 4 : 1);
+    open = open_sky(p, hit.n, hit.item, all ? 0 : sample_index % 3, all ? 3 : 1);
 #endif
     vec3 direct = body * kKey * (facing * visible);
     vec3 ambient = body * ambient_light(hit.n) * open;
@@ -132,9 +132,9 @@ uint packed_normal(vec3 n) {
 }
 
 void main() {
-    // Sample 0 is the pixel's centre. Where it finds an edge, 16 more look for the depths of the two
-    // layers, and 64 more are averaged instead of it.
-    const int kProbes = 16, kSamples = 64;
+    // Sample 0 is the pixel's centre. Where it finds an edge, four more look for the depths of the two
+    // layers, and 6 x 6 more are averaged instead of it.
+    const int kProbes = 4, kSamples = 36;
     vec3 color = vec3(0.0), front = vec3(0.0), n_near = vec3(0.0), n_far = vec3(0.0);
     float direct = 0.0, ambient = 0.0, weight = 0.0, front_weight = 0.0;
     float t_near = 0.0, t_far = 0.0, split = 0.0;
@@ -143,9 +143,9 @@ void main() {
         vec2 at = vec2(0.0);
         int fine = i - 1 - kProbes;
         if (i > 0) {
-            int k = fine < 0 ? i - 1 : fine, edge = fine < 0 ? 4 : 8;
+            int k = fine < 0 ? i - 1 : fine, edge = fine < 0 ? 2 : 6;
             // Both grids reach equally far out: a line that cuts off a sample cuts off a probe.
-            at = (vec2(float(k % edge), float(k / edge)) / float(edge - 1) - 0.5) * 0.875;
+            at = (vec2(float(k % edge), float(k / edge)) / float(edge - 1) - 0.5) * (5.0 / 6.0);
         }
         vec3 d = ray_through(gl_FragCoord.xy + at);
         Hit hit = nearest_surface(d);

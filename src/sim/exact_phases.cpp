@@ -1,0 +1,166 @@
+// What a ball does next: it flies, or stays on a flat surface.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/failure.h"
+#include "sim/exact_run.h"
+#include "sim/flat_contact.h"
+#include "sim/polynomial.h"
+
+namespace carom {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A bouncing series ends when its next hop is lower than this fraction of the ball's radius, or of
+/// its distance from the origin if that is larger: below it the hop drowns in the place's rounding.
+constexpr double kLastHop = 1e-12;
+
+/// Seconds until the contact point leaves the face of a box that the ball is on; infinity on a
+/// plane.
+double seconds_on_face(const Piece& piece, const SurfaceShape& shape, const Vec3& normal,
+                       double horizon) {
+    const auto* box = std::get_if<BoxShape>(&shape);
+    if (box == nullptr) return kInfinity;
+    const Mat3 world_from_box = box->orientation.toRotationMatrix();
+    double earliest = kInfinity;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 along = world_from_box.col(axis);
+        if (std::abs(along.dot(normal)) > 0.5) continue;  // the face's own normal
+        for (const double side : {-1.0, 1.0}) {
+            const Polynomial inside{
+                {0.5 * box->size[axis] - side * along.dot(piece.position - box->center),
+                 -side * along.dot(piece.velocity), -0.5 * side * along.dot(piece.acceleration), 0,
+                 0}};
+            const Roots out = downward_crossings(inside, horizon);
+            if (out.count > 0) earliest = std::min(earliest, out.at[0]);
+        }
+    }
+    return earliest;
+}
+
+/// Whether a normal is that of a flat part of a surface: anything of a plane, a face of a box.
+bool is_flat(const SurfaceShape& shape, const Vec3& normal) {
+    if (std::holds_alternative<PlaneShape>(shape)) return true;
+    const auto* box = std::get_if<BoxShape>(&shape);
+    if (box == nullptr) return false;
+    const Vec3 local = box->orientation.conjugate() * normal;
+    return local.cwiseAbs().maxCoeff() > 1 - 1e-12;
+}
+
+}  // namespace
+
+// ---- What a ball does next
+// -----------------------------------------------------------------------
+
+double ExactRun::hop_limit(int ball, const Vec3& position) const {
+    return kLastHop * std::max(world_.body(ball).radius, position.cwiseAbs().maxCoeff());
+}
+
+/// Whether a contact that does not approach is a lasting one; `tail` [s] is how long its remaining
+/// bounces take: 2 v / (g_n (1 - e)), v the separation speed.
+bool ExactRun::lasts(const Contact& c, int ball, double speed_scale, double& tail) const {
+    const double g_n = -world_.scene.simulation.gravity.dot(c.normal);
+    if (!c.other.is_surface || !(g_n > 1e-14 * world_.scene.simulation.gravity.norm()))
+        return false;
+    const double v = std::max(c.separation_speed, 0.0);
+    tail = 0;
+    if (v <= kStillFraction * speed_scale) return true;
+    const Vec3 x = world_.ball(ball).piece.position;
+    if (v * v / (2 * g_n) >= hop_limit(ball, x) || c.restitution >= 1) return false;
+    tail = 2 * v / (g_n * (1 - c.restitution));
+    return true;
+}
+
+void ExactRun::settle(int ball, double now, const Velocities& velocities,
+                      const std::vector<Contact>& contacts, double speed_scale, bool at_start) {
+    const Contact* lasting = nullptr;
+    double tail = 0;
+    for (const Contact& c : contacts) {
+        double this_tail = 0;
+        if (!lasts(c, ball, speed_scale, this_tail)) continue;
+        if (lasting != nullptr) refuse("two lasting contacts at once", ball, c.other, now);
+        lasting = &c;
+        tail = this_tail;
+    }
+    if (lasting != nullptr) {
+        hold(ball, now, *lasting, velocities, tail, at_start);
+        return;
+    }
+    if (world_.ball(ball).surface >= 0) row(now, EventKind::kLeave, ball);
+    fly(ball, now, velocities);
+}
+
+void ExactRun::begin_piece(int ball, double now, const BallState& at, const Vec3& a,
+                           const Vec3& spin_rate) {
+    ExactBall& b = world_.ball(ball);
+    b.piece = {now, at.position, at.velocity, a, at.orientation, at.spin, spin_rate};
+    b.stamp = next_stamp_++;
+    if (!at.position.allFinite() || !at.velocity.allFinite() || !at.spin.allFinite())
+        throw Failure(FailureKind::kRun, fmt::format("the state of ball {} is not finite at {} s",
+                                                     world_.body(ball).name, now));
+    motion_.balls[static_cast<std::size_t>(ball)].append(b.piece);
+}
+
+void ExactRun::fly(int ball, double now, const Velocities& velocities) {
+    ExactBall& b = world_.ball(ball);
+    BallState at = world_.state(ball, now);
+    at.velocity = velocities.linear;
+    at.spin = velocities.spin;
+    b.surface = -1;
+    b.phase_end = b.row_due = kInfinity;
+    begin_piece(ball, now, at, world_.scene.simulation.gravity, Vec3::Zero());
+}
+
+void ExactRun::hold(int ball, double now, const Contact& contact, const Velocities& velocities,
+                    double tail, bool at_start) {
+    const Ball& body = world_.body(ball);
+    const SurfaceShape& shape = world_.surface(contact.other.index).shape;
+    if (!is_flat(shape, contact.normal))
+        refuse("a lasting contact with a curved surface has no closed form yet", ball,
+               contact.other, now);
+    const FlatContact flat{contact.normal, body.radius, body.inertia_factor, contact.friction,
+                           world_.scene.simulation.gravity};
+    const double slip_tolerance =
+        kStillFraction * (velocities.linear.norm() + body.radius * velocities.spin.norm());
+    const std::optional<FlatMotion> motion = flat_motion(flat, velocities, slip_tolerance);
+    if (!motion) refuse("slip that turns has no closed form yet", ball, contact.other, now);
+
+    ExactBall& b = world_.ball(ball);
+    BallState at = world_.state(ball, now);
+    at.position += contact.depth * contact.normal;  // what rounding left of the gap
+    at.velocity = motion->velocities.linear;
+    at.spin = motion->velocities.spin;
+    const bool same = b.surface == contact.other.index && b.kind == motion->kind;
+    const bool due = b.row_due < kInfinity;
+    b.surface = contact.other.index;
+    b.kind = motion->kind;
+    b.normal = contact.normal;
+    begin_piece(ball, now, at, motion->acceleration, motion->spin_rate);
+
+    const double on_face = seconds_on_face(b.piece, shape, contact.normal, end_ - now);
+    b.leaves_at_end = on_face < motion->seconds;
+    b.phase_end = now + std::min(on_face, motion->seconds);
+    if (b.leaves_at_end) require_departure(ball, b.phase_end, contact);
+    // A change of kind is a row; that of a contact that begins waits for the end of its bounces.
+    if (due) return;
+    b.row_due = kInfinity;
+    if (at_start || same) return;
+    if (tail > 0)
+        b.row_due = now + tail;
+    else
+        row(now, b.kind, ball);
+}
+
+/// At the end of a face the ball leaves at once if the edge cannot bend its path: v^2 >= g_n R.
+void ExactRun::require_departure(int ball, double time, const Contact& contact) const {
+    const double v = world_.state(ball, time).velocity.norm();
+    const double g_n = -world_.scene.simulation.gravity.dot(contact.normal);
+    if (v * v < g_n * world_.body(ball).radius)
+        refuse("rolling over an edge has no closed form yet", ball, contact.other, time);
+}
+
+}  // namespace carom

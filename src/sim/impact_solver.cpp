@@ -1,0 +1,129 @@
+#include "sim/impact_solver.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "core/failure.h"
+#include "sim/ode_messages.h"
+#include "sim/ode_world.h"
+
+namespace carom {
+
+namespace {
+
+/// With gravity off and no correction, the length of the step cancels out; a power of two cancels
+/// without rounding.
+constexpr double kStep = 1.0;
+
+Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
+
+Velocities other_velocities(const Contact& c, const std::vector<ImpactBody>& bodies) {
+    return c.other.is_surface ? Velocities{}
+                              : bodies[static_cast<std::size_t>(c.other.index)].velocities;
+}
+
+}  // namespace
+
+struct ImpactSolver::World {
+    OdeWorldPtr world;
+    OdeJointGroupPtr contacts;
+    std::vector<dBodyID> bodies;  ///< grows to the largest cluster; the unused ones are disabled
+    std::vector<dJointFeedback> feedback;
+};
+
+ImpactSolver::ImpactSolver() : world_(std::make_unique<World>()) {
+    start_ode();
+    world_->world.reset(dWorldCreate());
+    world_->contacts.reset(dJointGroupCreate(0));
+    dWorldSetGravity(world_->world.get(), 0, 0, 0);
+    dWorldSetERP(world_->world.get(), 0);
+    dWorldSetCFM(world_->world.get(), 0);
+    dWorldSetAutoDisableFlag(world_->world.get(), 0);
+}
+
+ImpactSolver::~ImpactSolver() = default;
+
+void ImpactSolver::prepare(const std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
+    while (world_->bodies.size() < bodies.size())
+        world_->bodies.push_back(dBodyCreate(world_->world.get()));
+    // Positions relative to the first body: ODE needs arms, not places in the world.
+    const Vec3 origin = bodies.front().position;
+    for (std::size_t i = 0; i < world_->bodies.size(); ++i) {
+        const dBodyID body = world_->bodies[i];
+        if (i >= bodies.size()) {
+            dBodyDisable(body);
+            continue;
+        }
+        const ImpactBody& b = bodies[i];
+        dMass mass;
+        dMassSetParameters(&mass, b.mass, 0, 0, 0, b.inertia, b.inertia, b.inertia, 0, 0, 0);
+        dBodySetMass(body, &mass);
+        dBodyEnable(body);
+        const Vec3 p = b.position - origin;
+        const Velocities& v = b.velocities;
+        dBodySetPosition(body, p.x(), p.y(), p.z());
+        dBodySetLinearVel(body, v.linear.x(), v.linear.y(), v.linear.z());
+        dBodySetAngularVel(body, v.spin.x(), v.spin.y(), v.spin.z());
+    }
+    for (Contact& c : contacts) {
+        const Vec3 relative = relative_velocity(
+            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
+        c.approach_speed = -relative.dot(c.normal);
+        c.slip = tangential(relative, c.normal);
+    }
+}
+
+void ImpactSolver::add_joint(const Contact& contact, std::size_t index) {
+    const dBodyID ball = world_->bodies[static_cast<std::size_t>(contact.ball)];
+    dContact joint = {};
+    joint.surface.mode = dContactBounce;
+    joint.surface.bounce = contact.restitution;
+    to_ode(from_ode(dBodyGetPosition(ball)) + contact.arm, joint.geom.pos);
+    to_ode(contact.normal, joint.geom.normal);
+    if (contact.friction > 0) {
+        joint.surface.mode |= dContactApprox1;
+        joint.surface.mu = contact.friction;
+        // The first axis along the slip makes ODE's friction box Coulomb's cone for this contact.
+        if (const double slip = contact.slip.norm(); slip > 0) {
+            joint.surface.mode |= dContactFDir1;
+            to_ode(tangential(contact.slip / slip, contact.normal).normalized(), joint.fdir1);
+        }
+    }
+    const dJointID id = dJointCreateContact(world_->world.get(), world_->contacts.get(), &joint);
+    const dBodyID other = contact.other.is_surface
+                              ? nullptr
+                              : world_->bodies[static_cast<std::size_t>(contact.other.index)];
+    dJointAttach(id, ball, other);
+    dJointSetFeedback(id, &world_->feedback[index]);
+}
+
+void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+                         double time) {
+    prepare(bodies, contacts);
+    world_->feedback.resize(contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i) add_joint(contacts[i], i);
+    OdeMessages messages;
+    dWorldStep(world_->world.get(), kStep);
+    if (!messages.empty())
+        throw Failure(FailureKind::kRun, fmt::format("ODE at {} s, solving {} contacts at once: {}",
+                                                     time, contacts.size(), messages.text()));
+
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        bodies[i].velocities.linear = from_ode(dBodyGetLinearVel(world_->bodies[i]));
+        bodies[i].velocities.spin = from_ode(dBodyGetAngularVel(world_->bodies[i]));
+    }
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        Contact& c = contacts[i];
+        const Vec3 relative = relative_velocity(
+            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
+        c.separation_speed = relative.dot(c.normal);
+        c.slip_after = tangential(relative, c.normal);
+        const Vec3 impulse = kStep * from_ode(world_->feedback[i].f1);
+        c.impulse = std::max(impulse.dot(c.normal), 0.0);
+        c.tangential_impulse = tangential(impulse, c.normal).norm();
+    }
+    dJointGroupEmpty(world_->contacts.get());
+}
+
+}  // namespace carom

@@ -1,0 +1,241 @@
+#include "sim/time_of_impact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+/// A crossing of one feature's gap counts if the whole body is as near then as that feature says.
+/// The bound is the rounding of a distance in the numbers that make it up, and no more: features
+/// join tangentially, so that the feature that is really met passes by far.
+constexpr double kRounding = 64 * kEpsilon;
+
+/// |p|^2 - d^2 along a path.
+Polynomial squared_distance(const Path& p, double d) {
+    const double r = p.position.norm();
+    const Vec3 half = 0.5 * p.acceleration;
+    return {{(r - d) * (r + d), 2 * p.position.dot(p.velocity),
+             p.velocity.squaredNorm() + 2 * p.position.dot(half), 2 * p.velocity.dot(half),
+             half.squaredNorm()}};
+}
+
+/// The crossings of one gap, and for a pair in contact whether this gap presses them together.
+struct Crossings {
+    Roots roots;
+    bool touching = false;
+    bool pressed = false;
+};
+
+/// For a pair in contact: the gap is 0 at s = 0; what comes after is the gap divided by s.
+/// `separation` is the rate of the gap below which they do not move apart.
+Crossings crossings(Polynomial gap, bool touching, double horizon, double separation) {
+    if (!touching) return {downward_crossings(gap, horizon), false, false};
+    gap = gap.divided_by_s();
+    if (gap.c[0] <= separation) {
+        gap = gap.divided_by_s();
+        if (gap.c[0] < 0) return {{}, true, true};
+    }
+    return {downward_crossings(gap, horizon), true, false};
+}
+
+TimeOfImpact first(const Crossings& found) {
+    if (found.pressed) return {ImpactState::kPressed, 0};
+    if (found.roots.capped) return {ImpactState::kCapped, 0};
+    return found.roots.count > 0 ? TimeOfImpact{ImpactState::kHit, found.roots.at[0]}
+                                 : TimeOfImpact{};
+}
+
+/// Rates below this are rounding of a zero.
+double still(const Path& p) { return kRounding * p.velocity.norm(); }
+
+/// The earliest crossing of several features at which the whole body is really touched.
+class EarliestTouch {
+  public:
+    EarliestTouch(const Path& ball, double radius, const SurfaceShape& shape)
+        : ball_(ball), radius_(radius), shape_(shape) {}
+
+    void offer(const Crossings& found) {
+        touching_ |= found.touching;
+        all_pressed_ &= !found.touching || found.pressed;
+        const Roots& roots = found.roots;
+        if (roots.capped) result_ = {ImpactState::kCapped, 0};
+        for (int i = 0; i < roots.count && result_.state != ImpactState::kCapped; ++i) {
+            const double s = roots.at[static_cast<std::size_t>(i)];
+            if (result_.state == ImpactState::kHit && s >= result_.s) return;
+            if (!touched(s)) continue;
+            result_ = {ImpactState::kHit, s};
+            return;
+        }
+    }
+    /// At a border of two features, e.g. where a face ends, one that lets go is enough.
+    TimeOfImpact result() const {
+        return touching_ && all_pressed_ ? TimeOfImpact{ImpactState::kPressed, 0} : result_;
+    }
+
+  private:
+    bool touched(double s) const {
+        const Vec3 center = ball_.at(s);
+        // Rounding of the centre and of the time, which the speed turns into a distance.
+        const double speed = (ball_.velocity + s * ball_.acceleration).norm();
+        const double scale = ball_.position.cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() +
+                             speed * s + radius_;
+        return nearest_on_surface(center, radius_, shape_).gap <= kRounding * scale;
+    }
+
+    const Path& ball_;
+    double radius_;
+    const SurfaceShape& shape_;
+    TimeOfImpact result_;
+    bool touching_ = false;
+    bool all_pressed_ = true;
+};
+
+/// The part of a path across a unit axis.
+Path across(const Path& p, const Vec3& axis) {
+    const auto drop = [&axis](const Vec3& v) -> Vec3 { return v - axis.dot(v) * axis; };
+    return {drop(p.position), drop(p.velocity), drop(p.acceleration)};
+}
+
+Path shifted(const Path& p, const Vec3& origin) {
+    return {p.position - origin, p.velocity, p.acceleration};
+}
+
+Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    return a + std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) * d;
+}
+
+Nearest nearest_on_box(const Vec3& center, double radius, const BoxShape& box) {
+    const Mat3 world_from_box = box.orientation.toRotationMatrix();
+    const Vec3 half = 0.5 * box.size;
+    const Vec3 local = world_from_box.transpose() * (center - box.center);
+    Vec3 nearest = local.cwiseMax(-half).cwiseMin(half);
+    Vec3 away = local - nearest;
+    double distance = away.norm();
+    if (distance == 0) {  // inside: out through the nearest face
+        int axis = 0;
+        (half - local.cwiseAbs()).minCoeff(&axis);
+        const double side = local[axis] < 0 ? -1 : 1;
+        distance = std::abs(local[axis]) - half[axis];
+        away = side * Vec3::Unit(axis);
+        nearest[axis] = side * half[axis];
+    } else {
+        away /= distance;
+    }
+    return {distance - radius, world_from_box * away, box.center + world_from_box * nearest};
+}
+
+/// Whether a contact now belongs to a feature with this gap: then the gap is 0, not its rounding.
+bool is_contact(bool touching, double gap, double scale) {
+    return touching && std::abs(gap) <= 1e-9 * scale;
+}
+
+}  // namespace
+
+TimeOfImpact impact_with_plane(const Path& ball, double radius, const PlaneShape& plane,
+                               bool touching, double horizon) {
+    const Polynomial gap{{plane.normal.dot(ball.position) - plane.offset_m - radius,
+                          plane.normal.dot(ball.velocity),
+                          0.5 * plane.normal.dot(ball.acceleration), 0, 0}};
+    return first(crossings(gap, touching, horizon, still(ball)));
+}
+
+TimeOfImpact impact_with_sphere(const Path& path, double distance, bool touching, double horizon) {
+    return first(
+        crossings(squared_distance(path, distance), touching, horizon, 2 * distance * still(path)));
+}
+
+TimeOfImpact impact_with_capsule(const Path& ball, double radius, const CapsuleShape& capsule,
+                                 bool touching, double horizon) {
+    const SurfaceShape shape = capsule;
+    const double d = radius + capsule.radius;
+    const Vec3 axis = (capsule.to - capsule.from).normalized();
+    EarliestTouch earliest(ball, radius, shape);
+    const auto offer = [&](const Path& p) {
+        const bool here = is_contact(touching, p.position.norm() - d, d);
+        earliest.offer(crossings(squared_distance(p, d), here, horizon, 2 * d * still(p)));
+    };
+    offer(across(shifted(ball, capsule.from), axis));
+    offer(shifted(ball, capsule.from));
+    offer(shifted(ball, capsule.to));
+    return earliest.result();
+}
+
+TimeOfImpact impact_with_box(const Path& ball, double radius, const BoxShape& box, bool touching,
+                             double horizon) {
+    // In the box's own frame: six faces, twelve edges (cylinders of the ball's radius around them)
+    // and eight corners.
+    const Mat3 box_from_world = box.orientation.toRotationMatrix().transpose();
+    const Path p{box_from_world * (ball.position - box.center), box_from_world * ball.velocity,
+                 box_from_world * ball.acceleration};
+    const SurfaceShape own_frame = BoxShape{Vec3::Zero(), box.size, Quat::Identity()};
+    const Vec3 half = 0.5 * box.size;
+    EarliestTouch earliest(p, radius, own_frame);
+
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            const Polynomial gap{{side * p.position[axis] - half[axis] - radius,
+                                  side * p.velocity[axis], 0.5 * side * p.acceleration[axis], 0,
+                                  0}};
+            const bool here = is_contact(touching, gap.c[0], radius);
+            earliest.offer(crossings(gap, here, horizon, still(p)));
+        }
+    const auto offer_round = [&](const Path& q) {
+        const bool here = is_contact(touching, q.position.norm() - radius, radius);
+        earliest.offer(
+            crossings(squared_distance(q, radius), here, horizon, 2 * radius * still(q)));
+    };
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3 c;
+        for (int axis = 0; axis < 3; ++axis)
+            c[axis] = (corner >> axis & 1) != 0 ? half[axis] : -half[axis];
+        offer_round(shifted(p, c));
+        // The edges that start at this corner and run along +axis.
+        for (int axis = 0; axis < 3; ++axis)
+            if (c[axis] < 0) offer_round(across(shifted(p, c), Vec3::Unit(axis)));
+    }
+    return earliest.result();
+}
+
+TimeOfImpact impact_with_surface(const Path& ball, double radius, const SurfaceShape& shape,
+                                 bool touching, double horizon) {
+    if (const auto* plane = std::get_if<PlaneShape>(&shape))
+        return impact_with_plane(ball, radius, *plane, touching, horizon);
+    if (const auto* box = std::get_if<BoxShape>(&shape))
+        return impact_with_box(ball, radius, *box, touching, horizon);
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
+        return impact_with_capsule(ball, radius, *capsule, touching, horizon);
+    const auto& sphere = std::get<SphereShape>(shape);
+    return impact_with_sphere(shifted(ball, sphere.center), radius + sphere.radius, touching,
+                              horizon);
+}
+
+Nearest nearest_on_surface(const Vec3& center, double radius, const SurfaceShape& shape) {
+    if (const auto* plane = std::get_if<PlaneShape>(&shape)) {
+        const double height = plane->normal.dot(center) - plane->offset_m;
+        return {height - radius, plane->normal, center - height * plane->normal};
+    }
+    if (const auto* box = std::get_if<BoxShape>(&shape))
+        return nearest_on_box(center, radius, *box);
+    Vec3 core = Vec3::Zero();
+    double body_radius = 0;
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape)) {
+        core = nearest_on_segment(center, capsule->from, capsule->to);
+        body_radius = capsule->radius;
+    } else {
+        const auto& sphere = std::get<SphereShape>(shape);
+        core = sphere.center;
+        body_radius = sphere.radius;
+    }
+    const Vec3 d = center - core;
+    const double distance = d.norm();
+    const Vec3 normal = distance > 0 ? Vec3(d / distance) : Vec3::UnitZ();
+    return {distance - radius - body_radius, normal, core + body_radius * normal};
+}
+
+}  // namespace carom
