@@ -1,5 +1,6 @@
 // carom render: from a scene to a film or to PNG frames.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -57,6 +58,9 @@ std::int64_t film(Painter& painter, const Film& film, const std::vector<std::int
         if (interrupt.requested()) break;
         painter.paint(frame_time(film, frame), picture);
         for (std::size_t i = 0; i + 1 < sinks.size(); ++i) sinks[i]->write(frame, picture);
+        // The driver has compiled its shaders by now: tens of megabytes that only the compiler needed
+        // go back before the encoder grows.
+        if (done == 0) malloc_trim(0);
         sinks.back()->write_swapped(frame, picture);  // nobody else needs it: no copy
         progress.update(++done);
     }
