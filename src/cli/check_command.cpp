@@ -10,6 +10,8 @@
 #include "cli/options.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
+#include "core/failure.h"
+#include "render/painter.h"
 #include "scene/schema.h"
 
 namespace carom {
@@ -55,9 +57,22 @@ int check(const CheckOptions& options) {
     return valid ? kExitDone : kExitInvalidScene;
 }
 
+/// What draws on this machine, or why nothing does.
+std::string renderer() {
+    const Scene scene;
+    const Motion motion;
+    try {
+        return Painter(scene, motion, {16, 16}).renderer();
+    } catch (const Failure& failure) {
+        return fmt::format("none: {}", failure.what());
+    }
+}
+
 int print_info(bool json) {
     nlohmann::ordered_json object = nlohmann::ordered_json::object();
-    for (const auto& [name, version] : library_versions()) {
+    std::map<std::string, std::string> facts = library_versions();
+    facts["renderer"] = renderer();
+    for (const auto& [name, version] : facts) {
         if (json)
             object[name] = version;
         else

@@ -58,8 +58,8 @@ std::int64_t film(Painter& painter, const Film& film, const std::vector<std::int
         if (interrupt.requested()) break;
         painter.paint(frame_time(film, frame), picture);
         for (std::size_t i = 0; i + 1 < sinks.size(); ++i) sinks[i]->write(frame, picture);
-        // The driver has compiled its shaders by now: tens of megabytes that only the compiler needed
-        // go back before the encoder grows.
+        // The driver has compiled its shaders by now: tens of megabytes that only the compiler
+        // needed go back before the encoder grows.
         if (done == 0) malloc_trim(0);
         sinks.back()->write_swapped(frame, picture);  // nobody else needs it: no copy
         progress.update(++done);

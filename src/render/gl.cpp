@@ -192,6 +192,9 @@ GlFramebuffer make_framebuffer(const Gl& gl, const std::string& purpose,
 }
 
 GlVec4Array::GlVec4Array(const Gl& gl) : gl_(&gl), buffer_(gl), texture_(gl) {
+    GLint most = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    most_vec4s_ = static_cast<std::size_t>(most);
     upload({0, 0, 0, 0});
     gl.BindTexture(GL_TEXTURE_BUFFER, texture_.name());
     gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.name());
@@ -201,6 +204,10 @@ void GlVec4Array::upload(const std::vector<float>& floats) {
     // An empty buffer would leave the texture without storage, which drivers need not accept.
     static constexpr float kNothing[4] = {};
     const bool empty = floats.empty();
+    if (floats.size() / 4 > most_vec4s_)
+        throw Failure(FailureKind::kRun,
+                      fmt::format("a frame needs {} values for its shaders, the driver takes {}",
+                                  floats.size() / 4, most_vec4s_));
     gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
     gl_->BufferData(
         GL_TEXTURE_BUFFER,

@@ -167,12 +167,14 @@ class GlVec4Array {
   public:
     GlVec4Array() = default;
     explicit GlVec4Array(const Gl& gl);
-    /// Replaces the contents; `floats` is a multiple of four long.
+    /// Replaces the contents; `floats` is a multiple of four long. Failure(kRun) beyond what the
+    /// driver can address, where shaders would read zeros.
     void upload(const std::vector<float>& floats);
     void bind(int unit) const;
 
   private:
     const Gl* gl_ = nullptr;
+    std::size_t most_vec4s_ = 0;
     GlBuffer buffer_;
     GlTexture texture_;
 };
