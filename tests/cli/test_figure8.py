@@ -21,7 +21,7 @@ def pixels(path):
 
 
 def is_ink(p):
-    return max(p) < 110 and p[2] >= p[0] - 8
+    return max(p) < 170 and p[2] >= p[0] - 8
 
 
 def clusters(rows):
@@ -40,7 +40,7 @@ def major_marks(picture):
     ink = [[y for y in range(HEIGHT) if is_ink(picture[y][x])] for x in range(WIDTH)]
     staff = max(range(WIDTH), key=lambda x: len(ink[x]))
     for x in range(staff - 1, staff - 30, -1):
-        marks = clusters(ink[x])
+        marks = clusters(ink[x])[-len(MAJOR_MARKS_M) :]  # above them stands the unit
         steps = [b - a for a, b in zip(marks, marks[1:])]
         if len(marks) == len(MAJOR_MARKS_M) and max(steps) < 1.1 * min(steps):
             return marks
