@@ -16,8 +16,9 @@ namespace carom {
 
 namespace {
 
-/// Frames that may wait between drawing and encoding; more would only cost memory.
-constexpr int kWaitingFrames = 2;
+/// Frames that may wait between drawing and encoding: the encoder has a queue of its own, more would
+/// only cost memory.
+constexpr int kWaitingFrames = 1;
 
 constexpr std::array kFilmExtensions = {".mp4", ".mkv"};
 

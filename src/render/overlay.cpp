@@ -14,10 +14,8 @@ class OverlayPainter::Impl {
   public:
     Impl(const Scene& scene, const Motion& motion, const View& view) : view_(view) {
         const Overlay& wanted = scene.overlay;
-        if (const auto staff = stand_ruler(scene, motion, view_)) {
-            if (const auto layout = lay_out_ruler(*staff, view_))
-                ruler_ = draw_ruler(*layout, view_, Font(kOverlayFontFamily, ruler_font_px(view_)));
-        }
+        if (const auto staff = stand_ruler(scene, motion, view_))
+            ruler_ = lay_out_ruler(*staff, view_);
         if (wanted.clock) {
             clock_.emplace(*wanted.clock, motion.duration, view_.width_px(), view_.height_px(),
                            kOverlayFontFamily);
@@ -29,7 +27,7 @@ class OverlayPainter::Impl {
     }
 
     const View view_;
-    Image ruler_;
+    std::optional<RulerLayout> ruler_;
     std::optional<OverlayClock> clock_;
     std::vector<Rect> obstacles_;
     std::optional<OverlayLabels> labels_;
@@ -43,7 +41,11 @@ OverlayPainter::~OverlayPainter() = default;
 OverlayPainter::OverlayPainter(OverlayPainter&&) noexcept = default;
 OverlayPainter& OverlayPainter::operator=(OverlayPainter&&) noexcept = default;
 
-Image OverlayPainter::static_under_layer() const { return impl_->ruler_; }
+Image OverlayPainter::static_under_layer() const {
+    if (!impl_->ruler_) return {};
+    const View& view = impl_->view_;
+    return draw_ruler(*impl_->ruler_, view, Font(kOverlayFontFamily, ruler_font_px(view)));
+}
 
 bool OverlayPainter::has_moving_under_layer() const { return impl_->trails_.has_value(); }
 

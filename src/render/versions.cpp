@@ -4,8 +4,6 @@
 
 namespace carom {
 
-std::map<std::string, std::string> render_versions() {
-    return {{"cairo", cairo_version_string()}};
-}
+std::map<std::string, std::string> render_versions() { return {{"cairo", cairo_version_string()}}; }
 
 }  // namespace carom
