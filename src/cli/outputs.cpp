@@ -16,8 +16,8 @@ namespace carom {
 
 namespace {
 
-/// Frames that may wait between drawing and encoding: the encoder has a queue of its own, more would
-/// only cost memory.
+/// Frames that may wait between drawing and encoding: the encoder has a queue of its own, more
+/// would only cost memory.
 constexpr int kWaitingFrames = 1;
 
 constexpr std::array kFilmExtensions = {".mp4", ".mkv"};

@@ -29,8 +29,8 @@ class OverlayPainter {
         bool empty() const { return width <= 0 || height <= 0; }
     };
 
-    /// The ruler: does not change with time, so it is drawn at each call and not kept. Empty picture
-    /// if nothing is to be drawn.
+    /// The ruler: does not change with time, so it is drawn at each call and not kept. Empty
+    /// picture if nothing is to be drawn.
     Image static_under_layer() const;
 
     /// The trails at t, premultiplied on transparent, kept up to date in one picture of the film's

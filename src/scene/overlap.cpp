@@ -76,7 +76,8 @@ class BallGrid {
         int level;
         std::int64_t x, y, z;
         int ball;
-        auto operator<=>(const Entry&) const = default;
+        auto operator<=>(const Entry&) const =
+            default;  // NOLINT(modernize-use-nullptr): no pointer
     };
 
     const Ball& ball(int index) const { return scene_.balls[static_cast<std::size_t>(index)]; }

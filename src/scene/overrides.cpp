@@ -209,9 +209,9 @@ bool Setter::follow(Node& root, const std::vector<Step>& steps, Node value) {
         if (last) {
             value.key = node->key;
             *node = std::move(value);
-        } else if (!open(place, *node, steps[i])) {
-            return false;
+            return true;
         }
+        if (!open(place, *node, steps[i])) return false;
     }
     return true;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "sim/island_sweeps.h"
 
 namespace carom {
 
@@ -15,65 +16,126 @@ constexpr double kEqual = 1e-12;
 /// What is left of the approach when a cluster counts as resolved, relative to the first.
 constexpr double kResolved = 1e-13;
 
-/// Rounds before what is left is solved as one inelastic contact. A chain of n balls needs about n
-/// rounds; inelastic collapse would need infinitely many.
-constexpr std::size_t kRounds = 2000;
+/// Approach speeds below this are rounding of the velocities that they are differences of, relative
+/// to the largest of those.
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-Cluster::Cluster(ExactWorld& world, const Contact& seed, const std::vector<Contact>& seeds,
-                 double time)
-    : world_(world), time_(time) {
-    add(seed);
-    grow(seeds);
+// ---- Seeds
+// --------------------------------------------------------------------------------------
+
+void Seeds::clear() {
+    for (const Contact& c : all_) {
+        first_[static_cast<std::size_t>(c.ball)] = -1;
+        if (!c.other.is_surface) first_[static_cast<std::size_t>(c.other.index)] = -1;
+    }
+    all_.clear();
+    next_.clear();
 }
 
+int Seeds::next_of(int seed, int ball) const {
+    const auto i = static_cast<std::size_t>(seed);
+    return next_[i][all_[i].ball == ball ? 0 : 1];
+}
+
+void Seeds::add(const Contact& contact) {
+    bool known = false;
+    for_each_of(contact.ball, [&](const Contact& c) {
+        known |= c.ball == contact.ball && c.other == contact.other;
+    });
+    if (known) return;
+    const int index = static_cast<int>(all_.size());
+    all_.push_back(contact);
+    int& first = first_[static_cast<std::size_t>(contact.ball)];
+    next_.push_back({first, -1});
+    first = index;
+    if (contact.other.is_surface) return;
+    int& first_of_other = first_[static_cast<std::size_t>(contact.other.index)];
+    next_.back()[1] = first_of_other;
+    first_of_other = index;
+}
+
+// ---- Who touches whom
+// ---------------------------------------------------------------------------
+
+Cluster::Cluster(ExactWorld& world) : world_(world), place_(world.balls.size(), -1) {}
+
 std::size_t Cluster::index_of(int ball) const {
-    const auto found = std::find(balls_.begin(), balls_.end(), ball);
-    CAROM_CHECK(found != balls_.end(), ==, true);
-    return static_cast<std::size_t>(found - balls_.begin());
+    CAROM_CHECK(has(ball), ==, true);
+    return static_cast<std::size_t>(place_[static_cast<std::size_t>(ball)]);
 }
 
 void Cluster::add_ball(int ball) {
-    if (std::find(balls_.begin(), balls_.end(), ball) != balls_.end()) return;
+    if (has(ball)) return;
+    place_[static_cast<std::size_t>(ball)] = static_cast<int>(balls_.size());
     balls_.push_back(ball);
-    const BallState now = world_.state(ball, time_);
     const Ball& b = world_.body(ball);
-    bodies_.push_back({now.position,
-                       {now.velocity, now.spin},
-                       b.mass,
+    const Velocities now = world_.velocities(ball, time_);
+    bodies_.push_back({world_.position(ball, time_), now, b.mass,
                        b.inertia_factor * b.mass * b.radius * b.radius});
-}
-
-void Cluster::add_contact(const Contact& contact) {
-    const auto same = [&contact](const Contact& c) {
-        return c.ball == contact.ball && c.other == contact.other;
-    };
-    if (std::none_of(contacts_.begin(), contacts_.end(), same)) contacts_.push_back(contact);
+    largest_speed_ = std::max(largest_speed_, now.linear.norm() + b.radius * now.spin.norm());
 }
 
 void Cluster::add(const Contact& contact) {
-    add_contact(contact);
+    contacts_.push_back(contact);
     add_ball(contact.ball);
     if (!contact.other.is_surface) add_ball(contact.other.index);
 }
 
-void Cluster::grow(const std::vector<Contact>& seeds) {
-    const auto consider = [this](int ball, const Partner& partner) {
-        const Contact contact = world_.contact_at(ball, partner, time_);
-        if (world_.touches(contact, time_)) add(contact);
-    };
+/// Adds what is not among the seeds of the ball at hand.
+void Cluster::add_new(const Contact& contact) {
+    for (std::size_t i = first_of_ball_; i < contacts_.size(); ++i)
+        if (contacts_[i].ball == contact.ball && contacts_[i].other == contact.other) return;
+    add(contact);
+}
+
+void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
+    for (const int ball : balls_) place_[static_cast<std::size_t>(ball)] = -1;
+    balls_.clear();
+    bodies_.clear();
+    contacts_.clear();
+    time_ = time;
+    first_approach_ = largest_speed_ = 0;
+    add_ball(seed.ball);
+    // The order of the balls follows the contacts, so that the same scene gives the same cluster.
     for (std::size_t k = 0; k < balls_.size(); ++k) {
         const int ball = balls_[k];
-        for (const Contact& seed : seeds)
-            if (seed.ball == ball || (!seed.other.is_surface && seed.other.index == ball))
-                add(seed);
-        for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s)
-            consider(ball, {true, s});
-        for (int other = 0; other < static_cast<int>(world_.balls.size()); ++other)
-            if (other != ball) consider(ball, {false, other});
+        first_of_ball_ = contacts_.size();
+        seeds.for_each_of(ball, [&](const Contact& c) {
+            // A ball-ball seed comes up twice: it is taken when the first of the two is looked at.
+            const int partner = c.ball == ball ? c.other.index : c.ball;
+            if (c.other.is_surface || !has(partner) || index_of(partner) > k) add(c);
+        });
+        touch_surfaces(ball);
+        touch_balls(ball);
     }
 }
+
+void Cluster::touch_surfaces(int ball) {
+    for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
+        const Contact contact = world_.contact_at(ball, {true, s}, time_);
+        if (world_.touches(contact, time_)) add_new(contact);
+    }
+}
+
+void Cluster::touch_balls(int ball) {
+    const std::size_t place = index_of(ball);
+    const Vec3 x = bodies_[place].position;
+    const double radius = world_.body(ball).radius;
+    world_.for_each_touching(ball, x, [&](int other) {
+        if (has(other) && index_of(other) < place) return;  // looked at from the other side
+        // Far pairs are the common case: a little more than the sum of the radii excludes them.
+        const double reach = 1.001 * (radius + world_.body(other).radius);
+        const Vec3 y = world_.position(other, time_);
+        if ((x - y).squaredNorm() > reach * reach + 1e-9 * x.squaredNorm()) return;
+        const Contact contact = world_.contact_at(ball, {false, other}, time_);
+        if (world_.touches(contact, time_)) add_new(contact);
+    });
+}
+
+// ---- Resolving
+// ----------------------------------------------------------------------------------
 
 double Cluster::approach(const Contact& c) const {
     const Velocities other =
@@ -81,61 +143,91 @@ double Cluster::approach(const Contact& c) const {
     return -relative_velocity(c, bodies_[index_of(c.ball)].velocities, other).dot(c.normal);
 }
 
-void Cluster::solve(ImpactSolver& solver, const std::vector<std::size_t>& chosen, bool inelastic,
-                    std::vector<Contact>& impacts) {
-    // The solver gets only the bodies at hand, under numbers of its own.
-    std::vector<int> here;
-    const auto number = [&here](int ball) {
-        const auto found = std::find(here.begin(), here.end(), ball);
-        if (found != here.end()) return static_cast<int>(found - here.begin());
-        here.push_back(ball);
-        return static_cast<int>(here.size()) - 1;
+/// The contacts that approach at least so fast, for the solver: only the bodies at hand, under
+/// numbers of its own.
+void Cluster::choose(double slowest) {
+    chosen_.clear();
+    here_.clear();
+    solver_bodies_.clear();
+    solver_contacts_.clear();
+    number_.assign(balls_.size(), -1);
+    const auto number = [this](int ball) {
+        const std::size_t i = index_of(ball);
+        if (number_[i] < 0) {
+            number_[i] = static_cast<int>(here_.size());
+            here_.push_back(i);
+            solver_bodies_.push_back(bodies_[i]);
+        }
+        return number_[i];
     };
-    std::vector<Contact> contacts;
-    for (const std::size_t i : chosen) {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        if (!(speeds_[i] >= slowest)) continue;
+        chosen_.push_back(i);
         Contact c = contacts_[i];
         c.ball = number(c.ball);
         if (!c.other.is_surface) c.other.index = number(c.other.index);
-        if (inelastic) c.restitution = 0;
-        contacts.push_back(c);
+        solver_contacts_.push_back(c);
     }
-    std::vector<ImpactBody> bodies;
-    for (const int ball : here) bodies.push_back(bodies_[index_of(ball)]);
-    solver.solve(bodies, contacts, time_);
-    for (std::size_t k = 0; k < here.size(); ++k)
-        bodies_[index_of(here[k])].velocities = bodies[k].velocities;
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-        Contact solved = contacts[k];
-        solved.ball = contacts_[chosen[k]].ball;
-        solved.other = contacts_[chosen[k]].other;
+}
+
+void Cluster::solve(ImpactSolver& solver, bool inelastic, std::vector<Contact>& impacts) {
+    if (inelastic)
+        for (Contact& c : solver_contacts_) c.restitution = 0;
+    solver.solve(solver_bodies_, solver_contacts_, time_);
+    for (std::size_t k = 0; k < here_.size(); ++k)
+        bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
+    for (std::size_t k = 0; k < chosen_.size(); ++k) {
+        Contact solved = solver_contacts_[k];
+        solved.ball = contacts_[chosen_[k]].ball;
+        solved.other = contacts_[chosen_[k]].other;
         solved.impact = solved.approach_speed > 0;
         if (solved.impact) impacts.push_back(solved);
     }
 }
 
-void Cluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts) {
+void Cluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits) {
     for (std::size_t round = 0;; ++round) {
-        std::vector<double> speeds;
-        for (const Contact& c : contacts_) speeds.push_back(approach(c));
-        const double largest = *std::max_element(speeds.begin(), speeds.end());
+        speeds_.clear();
+        for (const Contact& c : contacts_) speeds_.push_back(approach(c));
+        const double largest = *std::max_element(speeds_.begin(), speeds_.end());
         if (round == 0) first_approach_ = largest;
-        if (!(largest > kResolved * first_approach_)) return;
-        const bool last = round > kRounds + contacts_.size();
-        std::vector<std::size_t> chosen;
-        for (std::size_t i = 0; i < contacts_.size(); ++i)
-            if (last || speeds[i] >= largest * (1 - kEqual)) chosen.push_back(i);
-        solve(solver, chosen, last, impacts);
+        const double enough =
+            std::max({kResolved * first_approach_, kRounding * largest_speed_, limits.enough});
+        if (!(largest > enough)) return;
+        const bool last = round > limits.rounds + contacts_.size();
+        if (last && limits.enough > 0) {
+            press_together();
+            return;
+        }
+        choose(last ? -std::numeric_limits<double>::infinity() : largest * (1 - kEqual));
+        solve(solver, last, impacts);
         if (last) return;
     }
 }
 
-std::vector<Contact> Cluster::contacts_of(int ball) const {
-    std::vector<Contact> result;
+void Cluster::contacts_of(int ball, std::vector<Contact>& result) const {
+    result.clear();
     for (const Contact& c : contacts_) {
         if (c.ball != ball && (c.other.is_surface || c.other.index != ball)) continue;
         result.push_back(c);
         result.back().separation_speed = -approach(c);
     }
+}
+
+/// Ends an impact that a pile passes to and fro: nothing rebounds any more.
+void Cluster::press_together() {
+    std::vector<Contact> contacts = contacts_;
+    for (Contact& c : contacts) {
+        c.ball = static_cast<int>(index_of(c.ball));
+        if (!c.other.is_surface) c.other.index = static_cast<int>(index_of(c.other.index));
+    }
+    std::vector<Vec3> pushes(contacts.size(), Vec3::Zero());
+    solve_island_by_sweeps(bodies_, contacts, std::vector<double>(contacts.size(), 0.0), pushes);
+}
+
+std::vector<Contact> Cluster::contacts_of(int ball) const {
+    std::vector<Contact> result;
+    contacts_of(ball, result);
     return result;
 }
 

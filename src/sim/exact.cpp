@@ -28,7 +28,15 @@ constexpr std::int64_t kEventsPerLook = 1024;
 // ---- Start, loop, end
 // ----------------------------------------------------------------------------
 
-ExactRun::ExactRun(const Scene& scene, double end) : world_(scene), end_(end) {
+ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
+    : world_(scene),
+      end_(end),
+      links_(scene.balls.size()),
+      next_(scene.balls.size()),
+      meeting_(meeting_of(scene, world_.pairs, end)),
+      cluster_(world_),
+      seeds_(scene.balls.size()),
+      resolved_(scene.balls.size(), 0) {
     for (const Ball& b : scene.balls) motion_.ball_names.push_back(b.name);
     for (const Surface& s : scene.surfaces) motion_.surface_names.push_back(s.name);
     motion_.balls.resize(scene.balls.size());
@@ -45,6 +53,8 @@ ExactRun::ExactRun(const Scene& scene, double end) : world_(scene), end_(end) {
         }
         settle(i, 0, start, contacts, body.velocity.norm(), true);
     }
+    world_.balls_can_meet = meeting_.possible;
+    if (meeting_.possible && scene.balls.size() >= options.balls_for_grid) world_.build_grid(0);
     for (int i = 0; i < balls; ++i) predict(i, 0);
 }
 
@@ -65,12 +75,9 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
                    next.time);
         last = std::max(last, next.time);
 
-        std::vector<Prediction> together = {next};
-        while (!queue_.empty() && queue_.top().time <= next.time * (1 + kSameInstant)) {
-            if (current(queue_.top())) together.push_back(queue_.top());
-            queue_.pop();
-        }
-        happen(together, next.time);
+        take_together(next);
+        happen(next.time);
+        fit_grid(next.time);
         if (until_rest && all_at_rest()) {
             end_ = next.time;
             break;
@@ -84,15 +91,36 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
     motion_.duration = end_;
 }
 
-bool ExactRun::all_at_rest() const {
-    return std::all_of(world_.balls.begin(), world_.balls.end(), [](const ExactBall& b) {
-        return b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.row_due);
-    });
+/// The next prediction, and the others of its instant.
+void ExactRun::take_together(const Prediction& next) {
+    together_.assign(1, next);
+    while (!queue_.empty() && queue_.top().time <= next.time * (1 + kSameInstant)) {
+        if (current(queue_.top())) together_.push_back(queue_.top());
+        queue_.pop();
+    }
+}
+
+bool ExactRun::at_rest(int ball) const {
+    const ExactBall& b = world_.ball(ball);
+    return b.asleep || (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.row_due));
+}
+
+bool ExactRun::all_at_rest() {
+    // The ball that moved when last asked most likely still does.
+    const std::size_t balls = world_.balls.size();
+    for (std::size_t i = 0; i < balls; ++i) {
+        const std::size_t ball = (awake_ + i) % balls;
+        if (at_rest(static_cast<int>(ball))) continue;
+        awake_ = ball;
+        return false;
+    }
+    return true;
 }
 
 SimulationResult ExactRun::finish() {
     motion_.peaks = find_peaks(world_.scene, motion_);
     report_.effects = effects_of(world_.scene, world_.pairs);
+    report_.effects["pairs"] = {meeting_.possible, meeting_.why};
     return {std::move(motion_), std::move(report_)};
 }
 
@@ -106,37 +134,68 @@ void ExactRun::refuse(const std::string& what, int ball, const Partner& partner,
 // ---- Events
 // --------------------------------------------------------------------------------------
 
-void ExactRun::happen(const std::vector<Prediction>& together, double now) {
-    std::vector<Contact> seeds;
-    for (const Prediction& p : together) {
+void ExactRun::happen(double now) {
+    seeds_.clear();
+    stepped_.clear();
+    ++instant_;
+    for (std::size_t i = 0; i < together_.size(); ++i) {
+        const Prediction p = together_[i];
         if (!current(p)) continue;
-        if (!p.impact) {
-            end_phase(p.ball, now);
-            continue;
+        if (p.kind == PredictionKind::kCell) {
+            change_cell(p.ball, now);
+        } else if (p.kind == PredictionKind::kPhase) {
+            if (world_.ball(p.ball).stepped)
+                stepped_.push_back(p.ball);
+            else
+                end_phase(p.ball, now);
+        } else if (!p.partner.is_surface && world_.ball(p.partner.index).stamp != p.partner_stamp) {
+            predict(p.ball, now);  // the partner has moved on since
+        } else {
+            seeds_.add(contact_met(p, now));
         }
-        // The partner has moved on since: its own prediction has replaced this one.
-        if (!p.partner.is_surface && world_.ball(p.partner.index).stamp != p.partner_stamp) {
-            predict(p.ball, now);
-            continue;
-        }
-        seeds.push_back(world_.contact_at(p.ball, p.partner, now));
     }
     // Clusters that do not touch are resolved one by one.
-    std::vector<char> done(world_.balls.size(), 0);
-    for (const Contact& seed : seeds) {
-        if (done[static_cast<std::size_t>(seed.ball)] != 0) continue;
-        Cluster cluster(world_, seed, seeds, now);
-        for (const int ball : cluster.balls()) done[static_cast<std::size_t>(ball)] = 1;
-        std::vector<Contact> impacts;
-        cluster.resolve(solver_, impacts);
-        write_impacts(impacts, now);
-        for (const int ball : cluster.balls()) {
-            const ImpactBody& body = cluster.body(ball);
-            settle(ball, now, body.velocities, cluster.contacts_of(ball), cluster.first_approach(),
-                   false);
-        }
-        for (const int ball : cluster.balls()) predict(ball, now);
+    const std::size_t met = seeds_.all().size();
+    for (std::size_t i = 0; i < met; ++i) {
+        const Contact seed = seeds_.all()[i];
+        if (resolved_[static_cast<std::size_t>(seed.ball)] != instant_) resolve(seed, now);
     }
+    if (!stepped_.empty()) step_islands(stepped_, now);
+}
+
+/// The contact of an impact that has come. On a surface the ball takes what rounding left of the
+/// gap and of the time: late in a bouncing series a hop is short against the time's last digit, and
+/// g times that digit is much against its speed.
+Contact ExactRun::contact_met(const Prediction& p, double now) {
+    ExactBall& b = world_.ball(p.ball);
+    if (p.partner.is_surface && !b.stepped) {
+        const double lost = p.seconds - (now - b.piece.start);
+        b.piece.position += lost * world_.velocities(p.ball, now).linear;
+        b.piece.velocity += lost * b.piece.acceleration;
+        const Contact rounded = world_.contact_at(p.ball, p.partner, now);
+        b.piece.position += rounded.depth * rounded.normal;
+    }
+    return world_.contact_at(p.ball, p.partner, now);
+}
+
+void ExactRun::resolve(const Contact& seed, double now) {
+    // What hangs on a link is met as well.
+    const auto linked = [this](const Contact& c) {
+        return !links_.of(c.ball).empty() ||
+               (!c.other.is_surface && !links_.of(c.other.index).empty());
+    };
+    if (std::any_of(seeds_.all().begin(), seeds_.all().end(), linked))
+        for (const Contact& c : linked_contacts(seeds_.all(), now)) seeds_.add(c);
+    cluster_.gather(seed, seeds_, now);
+    impacts_.clear();
+    cluster_.resolve(solver_, impacts_, limits_of(cluster_));
+    write_impacts(impacts_, now);
+    for (const int ball : cluster_.balls()) {
+        resolved_[static_cast<std::size_t>(ball)] = instant_;
+        world_.ball(ball).rounding_speed = cluster_.rounding_speed();
+    }
+    settle_cluster(cluster_, now);
+    for (const int ball : cluster_.balls()) predict(ball, now);
 }
 
 void ExactRun::write_impacts(const std::vector<Contact>& impacts, double now) {
@@ -183,19 +242,23 @@ void ExactRun::end_phase(int ball, double now) {
     }
     const BallState state = world_.state(ball, now);
     const Contact contact = world_.contact_at(ball, {true, b.surface}, now);
-    if (b.leaves_at_end) {
+    if (b.leaves_at_end && !departs_at_edge(ball, now)) {
+        join(ball, now, {state.velocity, state.spin});
+    } else if (b.leaves_at_end) {
         row(now, EventKind::kLeave, ball);
         fly(ball, now, {state.velocity, state.spin});
+    } else if (const Velocities v{state.velocity, state.spin}; can_hold(ball, now, contact, v)) {
+        hold(ball, now, contact, v, 0, false);
     } else {
-        hold(ball, now, contact, {state.velocity, state.spin}, 0, false);
+        join(ball, now, v);
     }
     predict(ball, now);
 }
 
 SimulationResult simulate_exact(const Scene& scene, const std::stop_token& stop,
-                                const SimulationProgress& progress) {
+                                const SimulationProgress& progress, const ExactOptions& options) {
     const Simulation& s = scene.simulation;
-    ExactRun run(scene, s.duration.value_or(s.max_duration));
+    ExactRun run(scene, s.duration.value_or(s.max_duration), options);
     run.run(stop, progress, !s.duration);
     return run.finish();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
 #include "core/failure.h"
 #include "sim/exact_run.h"
 #include "sim/flat_contact.h"
@@ -51,6 +52,20 @@ bool is_flat(const SurfaceShape& shape, const Vec3& normal) {
     return local.cwiseAbs().maxCoeff() > 1 - 1e-12;
 }
 
+FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& contact) {
+    const Ball& body = world.body(ball);
+    return {contact.normal, body.radius, body.inertia_factor, contact.friction,
+            world.scene.simulation.gravity};
+}
+
+/// A slip is none if it is rounding of the velocities, or ends within the rounding of the time.
+double slip_tolerance(const ExactWorld& world, int ball, double now, const Velocities& velocities) {
+    const double time_rounding = 8 * std::numeric_limits<double>::epsilon() * now;
+    return kStillFraction *
+               (velocities.linear.norm() + world.body(ball).radius * velocities.spin.norm()) +
+           time_rounding * world.scene.simulation.gravity.norm();
+}
+
 }  // namespace
 
 // ---- What a ball does next
@@ -82,12 +97,18 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
     for (const Contact& c : contacts) {
         double this_tail = 0;
         if (!lasts(c, ball, speed_scale, this_tail)) continue;
-        if (lasting != nullptr) refuse("two lasting contacts at once", ball, c.other, now);
+        if (lasting != nullptr) {
+            join(ball, now, velocities);
+            return;
+        }
         lasting = &c;
         tail = this_tail;
     }
     if (lasting != nullptr) {
-        hold(ball, now, *lasting, velocities, tail, at_start);
+        if (can_hold(ball, now, *lasting, velocities))
+            hold(ball, now, *lasting, velocities, tail, at_start);
+        else
+            join(ball, now, velocities);
         return;
     }
     if (world_.ball(ball).surface >= 0) row(now, EventKind::kLeave, ball);
@@ -111,23 +132,28 @@ void ExactRun::fly(int ball, double now, const Velocities& velocities) {
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
     b.surface = -1;
+    b.stepped = b.asleep = false;
     b.phase_end = b.row_due = kInfinity;
     begin_piece(ball, now, at, world_.scene.simulation.gravity, Vec3::Zero());
 }
 
+/// Whether a lasting contact has a closed form: on a flat surface, slip that does not turn.
+bool ExactRun::can_hold(int ball, double now, const Contact& contact,
+                        const Velocities& velocities) const {
+    return contact.other.is_surface &&
+           is_flat(world_.surface(contact.other.index).shape, contact.normal) &&
+           flat_motion(flat_contact(world_, ball, contact), velocities,
+                       slip_tolerance(world_, ball, now, velocities))
+               .has_value();
+}
+
+/// Only where can_hold().
 void ExactRun::hold(int ball, double now, const Contact& contact, const Velocities& velocities,
                     double tail, bool at_start) {
-    const Ball& body = world_.body(ball);
-    const SurfaceShape& shape = world_.surface(contact.other.index).shape;
-    if (!is_flat(shape, contact.normal))
-        refuse("a lasting contact with a curved surface has no closed form yet", ball,
-               contact.other, now);
-    const FlatContact flat{contact.normal, body.radius, body.inertia_factor, contact.friction,
-                           world_.scene.simulation.gravity};
-    const double slip_tolerance =
-        kStillFraction * (velocities.linear.norm() + body.radius * velocities.spin.norm());
-    const std::optional<FlatMotion> motion = flat_motion(flat, velocities, slip_tolerance);
-    if (!motion) refuse("slip that turns has no closed form yet", ball, contact.other, now);
+    const std::optional<FlatMotion> motion =
+        flat_motion(flat_contact(world_, ball, contact), velocities,
+                    slip_tolerance(world_, ball, now, velocities));
+    CAROM_CHECK(motion.has_value(), ==, true);
 
     ExactBall& b = world_.ball(ball);
     BallState at = world_.state(ball, now);
@@ -139,12 +165,13 @@ void ExactRun::hold(int ball, double now, const Contact& contact, const Velociti
     b.surface = contact.other.index;
     b.kind = motion->kind;
     b.normal = contact.normal;
+    b.stepped = b.asleep = false;
     begin_piece(ball, now, at, motion->acceleration, motion->spin_rate);
 
-    const double on_face = seconds_on_face(b.piece, shape, contact.normal, end_ - now);
+    const double on_face = seconds_on_face(b.piece, world_.surface(contact.other.index).shape,
+                                           contact.normal, end_ - now);
     b.leaves_at_end = on_face < motion->seconds;
     b.phase_end = now + std::min(on_face, motion->seconds);
-    if (b.leaves_at_end) require_departure(ball, b.phase_end, contact);
     // A change of kind is a row; that of a contact that begins waits for the end of its bounces.
     if (due) return;
     b.row_due = kInfinity;
@@ -156,11 +183,10 @@ void ExactRun::hold(int ball, double now, const Contact& contact, const Velociti
 }
 
 /// At the end of a face the ball leaves at once if the edge cannot bend its path: v^2 >= g_n R.
-void ExactRun::require_departure(int ball, double time, const Contact& contact) const {
+bool ExactRun::departs_at_edge(int ball, double time) const {
     const double v = world_.state(ball, time).velocity.norm();
-    const double g_n = -world_.scene.simulation.gravity.dot(contact.normal);
-    if (v * v < g_n * world_.body(ball).radius)
-        refuse("rolling over an edge has no closed form yet", ball, contact.other, time);
+    const double g_n = -world_.scene.simulation.gravity.dot(world_.ball(ball).normal);
+    return v * v >= g_n * world_.body(ball).radius;
 }
 
 }  // namespace carom

@@ -1,61 +1,231 @@
-// When a ball will meet something next.
+// When a ball will meet something next, or leave its cell of the grid.
 #include <algorithm>
+#include <cmath>
 
 #include "sim/exact_run.h"
+#include "sim/island_step.h"
 #include "sim/time_of_impact.h"
 
 namespace carom {
+
+namespace {
+
+/// The grid is looked at again after so many events a ball.
+constexpr std::int64_t kEventsPerGrid = 16;
+
+/// It is built anew when its cells should be larger or smaller by this factor.
+constexpr double kMisfit = 1.5;
+
+/// Seconds until x + v s + a s^2 / 2 leaves (low, high), where it is now; at most `horizon`.
+double seconds_inside(double x, double v, double a, double low, double high, double horizon) {
+    if (a == 0) {
+        if (v == 0) return horizon;
+        return std::min(((v > 0 ? high : low) - x) / v, horizon);
+    }
+    for (const auto& gap :
+         {Polynomial{{x - low, v, 0.5 * a, 0, 0}}, Polynomial{{high - x, -v, -0.5 * a, 0, 0}}}) {
+        const Roots out = downward_crossings(gap, horizon);
+        if (out.count > 0) horizon = std::min(horizon, out.at[0]);
+    }
+    return horizon;
+}
+
+/// Of two partners met at the same instant the first one counts: surfaces, then balls in order.
+bool comes_first(const Partner& a, const Partner& b) {
+    if (a.is_surface != b.is_surface) return a.is_surface;
+    return a.index < b.index;
+}
+
+bool is_stepped(const ExactBall& b) { return b.stepped || b.asleep; }
+
+}  // namespace
 
 // ---- Predictions
 // ---------------------------------------------------------------------------------
 
 void ExactRun::predict(int ball, double now) {
     const ExactBall& b = world_.ball(ball);
-    Prediction earliest{std::min(b.phase_end, b.row_due), ball, b.stamp, false, {}, 0};
+    Prediction& next = next_[static_cast<std::size_t>(ball)];
+    next = {std::min(b.phase_end, b.row_due), ball, b.stamp, PredictionKind::kPhase, {}, 0, 0};
     for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s)
-        if (s != b.surface) consider(ball, {true, s}, now, earliest);
-    for (int other = 0; other < static_cast<int>(world_.balls.size()); ++other)
-        if (other != ball) consider(ball, {false, other}, now, earliest);
-    if (earliest.time <= end_) queue_.push(earliest);
+        if (s != b.surface) consider_surface(ball, s, now);
+    if (world_.grid && world_.grid->in_cell(ball)) {
+        const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
+        if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
+    }
+    world_.for_each_near(ball, [&](int other) { consider_ball(ball, other, now); });
+    enqueue(ball, now);
 }
 
-void ExactRun::consider(int ball, const Partner& partner, double now, Prediction& earliest) {
-    const double horizon = std::min(earliest.time, end_) - now;
-    Path path = world_.path(ball, now);
+/// The prediction at hand, or the end of the ball's stay in its cell if that comes before.
+void ExactRun::enqueue(int ball, double now) {
+    Prediction event = next_[static_cast<std::size_t>(ball)];
+    if (world_.grid && world_.grid->in_cell(ball)) {
+        const Path path = world_.path(ball, now);
+        const double size = world_.grid->cell_size(), margin = world_.grid->margin();
+        const NeighbourGrid::Cell& cell = world_.grid->cell_of(ball);
+        double seconds = std::min(event.time, end_) - now;
+        const double until = seconds;
+        for (int i = 0; i < 3; ++i) {
+            const auto low = static_cast<double>(cell[static_cast<std::size_t>(i)]) * size;
+            seconds = seconds_inside(path.position[i], path.velocity[i], path.acceleration[i],
+                                     low - margin, low + size + margin, seconds);
+        }
+        if (seconds < until) {
+            event.time = now + seconds;
+            event.kind = PredictionKind::kCell;
+        }
+    }
+    if (event.time <= end_) queue_.push(event);
+}
+
+/// A ball has left its cell: only the cells that come into reach have to be looked at.
+void ExactRun::change_cell(int ball, double now) {
+    NeighbourGrid& grid = *world_.grid;
+    const NeighbourGrid::Cell from = grid.cell_of(ball);
+    const NeighbourGrid::Cell to = grid.cell_at(world_.position(ball, now));
+    int moved = 0, axis = 0;
+    std::int64_t side = 0;
+    for (int i = 0; i < 3; ++i) {
+        const std::int64_t step =
+            to[static_cast<std::size_t>(i)] - from[static_cast<std::size_t>(i)];
+        if (step == 0) continue;
+        ++moved;
+        axis = i;
+        side = step;
+    }
+    if (moved > 0) grid.move(ball, to);
+    const auto look = [&](int other) { consider_ball(ball, other, now); };
+    if (moved == 1 && std::abs(side) == 1)
+        grid.for_each_in_layer(ball, axis, side, look);
+    else if (moved > 0)
+        grid.for_each_near(ball, look);
+    enqueue(ball, now);
+}
+
+/// Where balls have spread or gathered, the cells follow.
+void ExactRun::fit_grid(double now) {
+    if (!world_.grid ||
+        ++events_of_grid_ < kEventsPerGrid * static_cast<std::int64_t>(world_.balls.size()))
+        return;
+    events_of_grid_ = 0;
+    const double old_size = world_.grid->cell_size();
+    NeighbourGrid old = std::move(*world_.grid);
+    world_.build_grid(now);
+    const double ratio = world_.grid->cell_size() / old_size;
+    if (ratio < kMisfit && ratio > 1 / kMisfit) {
+        *world_.grid = std::move(old);
+        return;
+    }
+    for (ExactBall& b : world_.balls) b.stamp = next_stamp_++;
+    for (int i = 0; i < static_cast<int>(world_.balls.size()); ++i) predict(i, now);
+}
+
+// ---- One partner
+// ---------------------------------------------------------------------------------
+//
+// A pair is looked at from the instant on since which both have been on their pieces, not from now:
+// so the answer does not depend on when, and how often, it is asked for.
+
+void ExactRun::consider_surface(int ball, int surface, double now) {
+    const Partner partner{true, surface};
+    const double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
+    if (until <= now || links_.linked(ball, partner)) return;
+    const bool stepped = is_stepped(world_.ball(ball));
+    if (stepped && joins_island(partner, ball, now)) return;
+    const double from = stepped ? now : world_.ball(ball).piece.start;
+    const Path path = world_.path(ball, from);
     const double radius = world_.body(ball).radius;
-    // Two balls far apart are the common case: geometry only where the gap is near 0.
-    const bool surface = partner.is_surface;
-    Path other;
-    if (!surface) other = world_.path(partner.index, now);
-    const Contact contact = world_.contact_at(ball, partner, now);
-    const bool touching = world_.touches(contact, now);
-    TimeOfImpact toi;
+    const SurfaceShape& shape = world_.surface(surface).shape;
+    const Nearest nearest = nearest_on_surface(path.position, radius, shape);
+    const bool touching =
+        stepped ? in_reach(world_.contact_at(ball, partner, now))
+                : nearest.gap <= world_.touch_tolerance(path.position, nearest.point, radius);
+    const double separation = touching ? path.velocity.dot(nearest.normal) : 0;
+    const double still = kStillFraction * path.velocity.norm() + world_.ball(ball).rounding_speed;
+    TimeOfImpact toi{ImpactState::kHit, 0};
+    if (!touching || -separation <= still)
+        toi = impact_with_surface(path, radius, shape, touching, until - from);
+    accept(partner, ball, toi, touching, separation, from, now);
+}
+
+void ExactRun::consider_ball(int ball, int other, double now) {
+    const Partner partner{false, other};
+    const ExactBall& a = world_.ball(ball);
+    const ExactBall& b = world_.ball(other);
+    const double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
+    if (until <= now) return;
+    // What ODE steps is known to the gap that makes a link.
+    const bool stepped = is_stepped(a) || is_stepped(b);
+    if (stepped && (links_.linked(ball, partner) || joins_island(partner, ball, now))) return;
+    const double from = stepped ? now : std::max(a.piece.start, b.piece.start);
+    const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
+    const Path path = path_a.relative_to(path_b);
+    const double sum = world_.body(ball).radius + world_.body(other).radius;
+    const double reach = sum + world_.touch_tolerance(path_a.position, path_b.position, sum);
+    const double distance2 = path.position.squaredNorm();
+    const double closing = path.position.dot(path.velocity);
+    const bool touching =
+        stepped ? in_reach(world_.contact_at(ball, partner, now)) : distance2 <= reach * reach;
+    // The common case: both in flight, and apart.
+    if (!touching && closing >= 0 && path.acceleration.isZero(0)) return;
     double separation = 0;
-    if (touching) {
-        Vec3 v = path.velocity - other.velocity;
-        if (contact.ball != ball) v = -v;
-        separation = v.dot(contact.normal);
-        if (-separation > kStillFraction * (path.velocity.norm() + other.velocity.norm()))
-            toi = {ImpactState::kHit, 0};
+    TimeOfImpact toi{ImpactState::kHit, 0};
+    if (touching) separation = closing / std::sqrt(distance2);
+    const double still = kStillFraction * (path_a.velocity.norm() + path_b.velocity.norm()) +
+                         a.rounding_speed + b.rounding_speed;
+    if (!touching || -separation <= still)
+        toi = impact_with_sphere(path, sum, touching, until - from);
+    accept(partner, ball, toi, touching, separation, from, now);
+}
+
+/// Whether something that ODE steps is near and slow enough for a lasting contact: then the ball's
+/// island takes a step at once.
+bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
+    if (!partner.is_surface) {  // most are far apart
+        const double reach =
+            (1 + kLinkGap) * (world_.body(ball).radius + world_.body(partner.index).radius);
+        const Vec3 apart = world_.position(ball, now) - world_.position(partner.index, now);
+        if (apart.squaredNorm() > reach * reach) return false;
     }
-    if (toi.state != ImpactState::kHit)
-        toi = surface ? impact_with_surface(path, radius, world_.surface(partner.index).shape,
-                                            touching, horizon)
-                      : impact_with_sphere(path.relative_to(other),
-                                           radius + world_.body(partner.index).radius, touching,
-                                           horizon);
+    const Contact contact = world_.contact_at(ball, partner, now);
+    if (!stays_together(contact, now)) return false;
+    join_at_once(ball, now);
+    return true;
+}
+
+/// The ball is in a contact without a closed form: its island takes a step at once.
+void ExactRun::join_at_once(int ball, double now) {
+    join(ball, now, world_.velocities(ball, now));
+    next_[static_cast<std::size_t>(ball)] = {
+        now, ball, world_.ball(ball).stamp, PredictionKind::kPhase, {}, 0, 0};
+}
+
+/// Takes an impact over into the ball's prediction if it comes first.
+void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi, bool touching,
+                      double separation, double from, double now) {
     if (toi.state == ImpactState::kMiss) return;
-    if (toi.state == ImpactState::kPressed)
-        refuse("pressed together in a contact that has no closed form yet", ball, partner, now);
+    if (toi.state == ImpactState::kPressed) return join_at_once(ball, now);
     if (toi.state == ImpactState::kCapped) refuse("time of impact not found", ball, partner, now);
-    if (touching && toi.s > 0 && contact.restitution < 1) {
+    if (touching && toi.s > 0) {
         const double hop = 0.25 * toi.s * separation;
-        if (hop < hop_limit(ball, path.position))
-            refuse("a bouncing series ends in a contact that has no closed form yet", ball, partner,
-                   now);
+        const Contact contact = world_.contact_at(ball, partner, from);
+        if (contact.restitution < 1 && hop < hop_limit(ball, world_.position(ball, from)))
+            return join_at_once(ball, now);
     }
-    earliest = {now + toi.s, ball,    world_.ball(ball).stamp,
-                true,        partner, surface ? 0 : world_.ball(partner.index).stamp};
+    Prediction& next = next_[static_cast<std::size_t>(ball)];
+    const double time = std::max(from + toi.s, now);
+    if (time > next.time) return;
+    if (time == next.time && next.kind == PredictionKind::kImpact &&
+        comes_first(next.partner, partner))
+        return;
+    next = {time,
+            ball,
+            world_.ball(ball).stamp,
+            PredictionKind::kImpact,
+            partner,
+            partner.is_surface ? 0 : world_.ball(partner.index).stamp,
+            (from - world_.ball(ball).piece.start) + toi.s};
 }
 
 }  // namespace carom

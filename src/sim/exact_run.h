@@ -9,20 +9,31 @@
 #include <vector>
 
 #include "sim/cluster.h"
+#include "sim/exact.h"
+#include "sim/exact_meeting.h"
 #include "sim/exact_world.h"
 #include "sim/impact_solver.h"
+#include "sim/island_solver.h"
+#include "sim/links.h"
 #include "sim/simulate.h"
 
 namespace carom {
+
+enum class PredictionKind : std::uint8_t {
+    kPhase,   ///< the end of a phase or of a step, or a row that is due
+    kImpact,  ///< with `partner`
+    kCell     ///< the ball leaves its cell of the grid
+};
 
 /// What will happen next to a ball if nothing else happens before.
 struct Prediction {
     double time = 0;
     int ball = -1;
     std::uint64_t stamp = 0;
-    bool impact = false;  ///< otherwise the end of a phase, or a row that is due
+    PredictionKind kind = PredictionKind::kPhase;
     Partner partner;
     std::uint64_t partner_stamp = 0;
+    double seconds = 0;  ///< since the start of the ball's piece: finer than `time` can say
 };
 
 /// Earliest first; at one instant by the balls' order, so that runs repeat exactly.
@@ -34,7 +45,7 @@ struct Later {
 
 class ExactRun {
   public:
-    ExactRun(const Scene& scene, double end);
+    ExactRun(const Scene& scene, double end, const ExactOptions& options);
 
     void run(const std::stop_token& stop, const SimulationProgress& progress, bool until_rest);
     SimulationResult finish();
@@ -42,9 +53,18 @@ class ExactRun {
   private:
     bool current(const Prediction& p) const;
     void predict(int ball, double now);
-    void consider(int ball, const Partner& partner, double now, Prediction& earliest);
-    void happen(const std::vector<Prediction>& together, double now);
-    void resolve(const Cluster& cluster, double now);
+    void enqueue(int ball, double now);
+    void change_cell(int ball, double now);
+    void fit_grid(double now);
+    void consider_surface(int ball, int surface, double now);
+    void consider_ball(int ball, int other, double now);
+    bool joins_island(const Partner& partner, int ball, double now);
+    void accept(const Partner& partner, int ball, const TimeOfImpact& toi, bool touching,
+                double separation, double from, double now);
+    void take_together(const Prediction& next);
+    void happen(double now);
+    Contact contact_met(const Prediction& p, double now);
+    void resolve(const Contact& seed, double now);
     void settle(int ball, double now, const Velocities& velocities,
                 const std::vector<Contact>& contacts, double speed_scale, bool at_start);
     bool lasts(const Contact& contact, int ball, double speed_scale, double& tail) const;
@@ -54,21 +74,58 @@ class ExactRun {
     void begin_piece(int ball, double now, const BallState& at, const Vec3& a,
                      const Vec3& spin_rate);
     void end_phase(int ball, double now);
-    void require_departure(int ball, double time, const Contact& contact) const;
+
+    // Islands of lasting contacts that ODE steps: exact_islands.cpp and exact_links.cpp.
+    void join(int ball, double now, const Velocities& velocities);
+    void join_at_once(int ball, double now);
+    std::vector<Contact> linked_contacts(const std::vector<Contact>& seeds, double now) const;
+    bool in_island(const Cluster& cluster) const;
+    Cluster::Limits limits_of(const Cluster& cluster) const;
+    void settle_cluster(const Cluster& cluster, double now);
+    void step_islands(const std::vector<int>& balls, double now);
+    void step_island(const std::vector<int>& balls, double now);
+    bool leave_island(int ball, double now);
+    void fall_asleep(const std::vector<int>& balls, double now, double calm_speed);
+    bool in_reach(const Contact& contact) const;
+    bool stays_together(const Contact& contact, double now) const;
+    std::vector<int> link_neighbours(std::vector<int> balls, double now);
+    void link_near(int ball, double now, const std::vector<Link>& before);
+    void note_link(Link& link, const Contact& contact, bool calm, double calm_speed, double now);
+    void note_departures(int ball, const std::vector<Link>& before, double now);
+    void row_of(const Contact& contact, EventKind kind, double now);
+    bool can_hold(int ball, double now, const Contact& contact, const Velocities& velocities) const;
+    bool departs_at_edge(int ball, double time) const;
     void row(double now, EventKind kind, int ball);
     void write_impacts(const std::vector<Contact>& impacts, double now);
     double hop_limit(int ball, const Vec3& position) const;
-    bool all_at_rest() const;
+    bool at_rest(int ball) const;
+    bool all_at_rest();
     [[noreturn]] void refuse(const std::string& what, int ball, const Partner& partner,
                              double now) const;
 
     ExactWorld world_;
     double end_;
     ImpactSolver solver_;
+    IslandSolver island_solver_;
+    Links links_;
     std::priority_queue<Prediction, std::vector<Prediction>, Later> queue_;
     Motion motion_;
     SimulationReport report_;
     std::uint64_t next_stamp_ = 1;
+    std::vector<Prediction> next_;  ///< per ball, without the change of its cell
+    std::int64_t events_of_grid_ = 0;
+    Meeting meeting_;
+    std::size_t awake_ = 0;  ///< a ball that was not at rest when last looked at
+
+    // Of one instant; members, so that an event allocates nothing once they have grown.
+    Cluster cluster_;
+    Seeds seeds_;
+    std::vector<Prediction> together_;
+    std::vector<Contact> impacts_;
+    std::vector<Contact> contacts_;
+    std::vector<int> stepped_;             ///< balls whose island is due
+    std::vector<std::uint64_t> resolved_;  ///< per ball, the last instant that resolved it
+    std::uint64_t instant_ = 0;
 };
 
 }  // namespace carom

@@ -11,6 +11,9 @@ namespace {
 /// Places are made of a few operations on numbers of their size.
 constexpr double kTouchRounding = 64 * std::numeric_limits<double>::epsilon();
 
+/// Up to this many materials all pairs of them are computed at the start.
+constexpr std::size_t kCachedMaterials = 256;
+
 }  // namespace
 
 ExactWorld::ExactWorld(const Scene& s) : scene(s), pairs(s), balls(s.balls.size()) {
@@ -22,11 +25,45 @@ ExactWorld::ExactWorld(const Scene& s) : scene(s), pairs(s), balls(s.balls.size(
         piece.acceleration = s.simulation.gravity;
         piece.spin = body.spin;
     }
+    const std::size_t materials = s.materials.size();
+    if (materials <= kCachedMaterials)
+        for (std::size_t a = 0; a < materials; ++a)
+            for (std::size_t b = 0; b < materials; ++b)
+                pair_cache_.push_back(pairs.at(static_cast<int>(a), static_cast<int>(b)));
+}
+
+PairProperties ExactWorld::pair(int material_a, int material_b) const {
+    if (pair_cache_.empty()) return pairs.at(material_a, material_b);
+    return pair_cache_[static_cast<std::size_t>(material_a) * scene.materials.size() +
+                       static_cast<std::size_t>(material_b)];
+}
+
+void ExactWorld::build_grid(double t) {
+    std::vector<Vec3> positions;
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        positions.push_back(position(static_cast<int>(i), t));
+        radii.push_back(scene.balls[i].radius);
+    }
+    grid.emplace(positions, radii);
+}
+
+Vec3 ExactWorld::position(int i, double t) const {
+    const Piece& p = ball(i).piece;
+    const double s = t - p.start;
+    return p.position + s * (p.velocity + (0.5 * s) * p.acceleration);
+}
+
+Velocities ExactWorld::velocities(int i, double t) const {
+    const Piece& p = ball(i).piece;
+    const double s = t - p.start;
+    return {p.velocity + s * p.acceleration, p.spin + s * p.spin_rate};
 }
 
 Path ExactWorld::path(int i, double t) const {
-    const BallState now = state(i, t);
-    return {now.position, now.velocity, ball(i).piece.acceleration};
+    const Piece& p = ball(i).piece;
+    const double s = t - p.start;
+    return {position(i, t), p.velocity + s * p.acceleration, p.acceleration};
 }
 
 std::string ExactWorld::name(const Partner& partner) const {
@@ -41,7 +78,7 @@ Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
     Contact c;
     c.ball = i;
     c.other = partner;
-    const Vec3 x = state(i, t).position;
+    const Vec3 x = position(i, t);
     const double radius = body(i).radius;
     int material = 0;
     if (partner.is_surface) {
@@ -52,7 +89,7 @@ Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
         material = surface(partner.index).material;
     } else {
         if (partner.index < i) std::swap(c.ball, c.other.index);
-        const Vec3 a = state(c.ball, t).position, b = state(c.other.index, t).position;
+        const Vec3 a = position(c.ball, t), b = position(c.other.index, t);
         const double distance = (a - b).norm();
         const double sum = body(c.ball).radius + body(c.other.index).radius;
         c.normal = distance > 0 ? Vec3((a - b) / distance) : Vec3::UnitZ();
@@ -62,17 +99,17 @@ Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
         material = body(c.other.index).material;
     }
     c.arm = -body(c.ball).radius * c.normal;
-    const PairProperties pair = pairs.at(body(c.ball).material, material);
-    c.restitution = pair.restitution;
-    c.friction = pair.friction;
+    const PairProperties both = pair(body(c.ball).material, material);
+    c.restitution = both.restitution;
+    c.friction = both.friction;
     return c;
 }
 
 bool ExactWorld::touches(const Contact& c, double t) const {
-    const Vec3 a = state(c.ball, t).position;
+    const Vec3 a = position(c.ball, t);
     if (c.other.is_surface) return -c.depth <= touch_tolerance(a, c.point, body(c.ball).radius);
     const double size = body(c.ball).radius + body(c.other.index).radius;
-    return -c.depth <= touch_tolerance(a, state(c.other.index, t).position, size);
+    return -c.depth <= touch_tolerance(a, position(c.other.index, t), size);
 }
 
 }  // namespace carom

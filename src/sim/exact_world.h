@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "motion/motion.h"
 #include "scene/scene.h"
 #include "sim/contact.h"
+#include "sim/neighbour_grid.h"
 #include "sim/restitution.h"
 #include "sim/time_of_impact.h"
 
@@ -23,8 +25,14 @@ struct ExactBall {
     Vec3 normal = Vec3::UnitZ();         ///< of the lasting contact
     double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
     bool leaves_at_end = false;  ///< the phase ends because the face does
+    bool stepped = false;        ///< in an island that ODE steps; phase_end is the step's end
+    bool asleep = false;         ///< in such an island, which rests until something touches it
+    int steps = 0;               ///< taken since it joined an island
+    int calm_steps = 0;          ///< on end, in which it hardly moved
     /// s, when the row of the lasting contact is due: at the end of its bouncing series.
     double row_due = std::numeric_limits<double>::infinity();
+    /// m/s: relative speeds below this are what its last impacts left of a zero.
+    double rounding_speed = 0;
 };
 
 /// Scene, balls and the geometry of who touches whom.
@@ -41,6 +49,9 @@ class ExactWorld {
     const Ball& body(int i) const { return scene.balls[static_cast<std::size_t>(i)]; }
     const Surface& surface(int i) const { return scene.surfaces[static_cast<std::size_t>(i)]; }
     BallState state(int i, double t) const { return ball(i).piece.at(t); }
+    /// The same without the orientation, which is what costs time.
+    Vec3 position(int i, double t) const;
+    Velocities velocities(int i, double t) const;
     /// The path of a ball's centre from t on.
     Path path(int i, double t) const;
     std::string name(const Partner& partner) const;
@@ -51,6 +62,37 @@ class ExactWorld {
     /// first one is `ball`.
     Contact contact_at(int i, const Partner& partner, double t) const;
     bool touches(const Contact& contact, double t) const;
+    PairProperties pair(int material_a, int material_b) const;
+
+    /// Whether balls have to look at each other at all, and why (not).
+    bool balls_can_meet = true;
+    /// Empty while balls are few: then each looks at all others.
+    std::optional<NeighbourGrid> grid;
+    void build_grid(double t);
+
+    /// Calls f(other) for every ball that could touch `ball`, and maybe for more.
+    template <class F>
+    void for_each_near(int ball_index, F&& f) const {
+        if (!balls_can_meet) return;
+        if (grid) {
+            grid->for_each_near(ball_index, f);
+            return;
+        }
+        for (int other = 0; other < static_cast<int>(balls.size()); ++other)
+            if (other != ball_index) f(other);
+    }
+
+    /// The same for balls that touch it now, at x.
+    template <class F>
+    void for_each_touching(int ball_index, const Vec3& x, F&& f) const {
+        if (balls_can_meet && grid)
+            grid->for_each_touching(ball_index, x, body(ball_index).radius, f);
+        else
+            for_each_near(ball_index, f);
+    }
+
+  private:
+    std::vector<PairProperties> pair_cache_;  ///< materials x materials, empty if they are many
 };
 
 /// Relative speed along the normal at which two touching bodies count as neither approaching nor

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/failure.h"
+#include "sim/impact_sweeps.h"
 #include "sim/ode_messages.h"
 #include "sim/ode_world.h"
 
@@ -16,6 +17,16 @@ namespace {
 /// without rounding.
 constexpr double kStep = 1.0;
 
+/// Bodies that ODE's world keeps between impacts: every step looks at all of them.
+constexpr std::size_t kBodiesKept = 4;
+
+/// Above this many contacts at once the direct solver's cubic cost is too much.
+constexpr std::size_t kMostForOde = 100;
+
+/// What ODE leaves of Newton's law and of the energy where it fails without saying so, relative;
+/// where it succeeds, these are roundings.
+constexpr double kWrong = 1e-11;
+
 Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
 
 Velocities other_velocities(const Contact& c, const std::vector<ImpactBody>& bodies) {
@@ -23,12 +34,38 @@ Velocities other_velocities(const Contact& c, const std::vector<ImpactBody>& bod
                               : bodies[static_cast<std::size_t>(c.other.index)].velocities;
 }
 
+double energy(const std::vector<ImpactBody>& bodies) {
+    double sum = 0;
+    for (const ImpactBody& b : bodies)
+        sum += b.mass * b.velocities.linear.squaredNorm() +
+               b.inertia * b.velocities.spin.squaredNorm();
+    return 0.5 * sum;
+}
+
+/// Whether all contacts separate as Newton's law says, and no energy came from nothing.
+bool is_solved(const std::vector<ImpactBody>& before, const std::vector<ImpactBody>& after,
+               const std::vector<Contact>& contacts) {
+    double largest = 0;
+    for (const Contact& c : contacts) largest = std::max(largest, c.approach_speed);
+    for (const Contact& c : contacts) {
+        const Vec3 relative = relative_velocity(
+            c, after[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, after));
+        const double wanted = c.restitution * std::max(c.approach_speed, 0.0);
+        if (!(relative.dot(c.normal) >= wanted - kWrong * largest)) return false;
+    }
+    return energy(after) <= energy(before) * (1 + kWrong);
+}
+
 }  // namespace
 
 struct ImpactSolver::World {
     OdeWorldPtr world;
     OdeJointGroupPtr contacts;
-    std::vector<dBodyID> bodies;  ///< grows to the largest cluster; the unused ones are disabled
+    struct Body {
+        dBodyID id = nullptr;
+        double mass = 0, inertia = 0;  ///< as ODE knows them; setting them costs a matrix inverse
+    };
+    std::vector<Body> bodies;  ///< the unused ones are disabled
     std::vector<dJointFeedback> feedback;
 };
 
@@ -44,21 +81,24 @@ ImpactSolver::ImpactSolver() : world_(std::make_unique<World>()) {
 
 ImpactSolver::~ImpactSolver() = default;
 
-void ImpactSolver::prepare(const std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
+void ImpactSolver::prepare(const std::vector<ImpactBody>& bodies) {
     while (world_->bodies.size() < bodies.size())
-        world_->bodies.push_back(dBodyCreate(world_->world.get()));
+        world_->bodies.push_back({dBodyCreate(world_->world.get()), 0, 0});
     // Positions relative to the first body: ODE needs arms, not places in the world.
     const Vec3 origin = bodies.front().position;
     for (std::size_t i = 0; i < world_->bodies.size(); ++i) {
-        const dBodyID body = world_->bodies[i];
+        const dBodyID body = world_->bodies[i].id;
         if (i >= bodies.size()) {
             dBodyDisable(body);
             continue;
         }
         const ImpactBody& b = bodies[i];
-        dMass mass;
-        dMassSetParameters(&mass, b.mass, 0, 0, 0, b.inertia, b.inertia, b.inertia, 0, 0, 0);
-        dBodySetMass(body, &mass);
+        if (b.mass != world_->bodies[i].mass || b.inertia != world_->bodies[i].inertia) {
+            dMass mass;
+            dMassSetParameters(&mass, b.mass, 0, 0, 0, b.inertia, b.inertia, b.inertia, 0, 0, 0);
+            dBodySetMass(body, &mass);
+            world_->bodies[i] = {body, b.mass, b.inertia};
+        }
         dBodyEnable(body);
         const Vec3 p = b.position - origin;
         const Velocities& v = b.velocities;
@@ -66,16 +106,10 @@ void ImpactSolver::prepare(const std::vector<ImpactBody>& bodies, std::vector<Co
         dBodySetLinearVel(body, v.linear.x(), v.linear.y(), v.linear.z());
         dBodySetAngularVel(body, v.spin.x(), v.spin.y(), v.spin.z());
     }
-    for (Contact& c : contacts) {
-        const Vec3 relative = relative_velocity(
-            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
-        c.approach_speed = -relative.dot(c.normal);
-        c.slip = tangential(relative, c.normal);
-    }
 }
 
 void ImpactSolver::add_joint(const Contact& contact, std::size_t index) {
-    const dBodyID ball = world_->bodies[static_cast<std::size_t>(contact.ball)];
+    const dBodyID ball = world_->bodies[static_cast<std::size_t>(contact.ball)].id;
     dContact joint = {};
     joint.surface.mode = dContactBounce;
     joint.surface.bounce = contact.restitution;
@@ -93,37 +127,61 @@ void ImpactSolver::add_joint(const Contact& contact, std::size_t index) {
     const dJointID id = dJointCreateContact(world_->world.get(), world_->contacts.get(), &joint);
     const dBodyID other = contact.other.is_surface
                               ? nullptr
-                              : world_->bodies[static_cast<std::size_t>(contact.other.index)];
+                              : world_->bodies[static_cast<std::size_t>(contact.other.index)].id;
     dJointAttach(id, ball, other);
     dJointSetFeedback(id, &world_->feedback[index]);
 }
 
-void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
-                         double time) {
-    prepare(bodies, contacts);
+bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+                                  double time) {
+    prepare(bodies);
     world_->feedback.resize(contacts.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) add_joint(contacts[i], i);
     OdeMessages messages;
     dWorldStep(world_->world.get(), kStep);
-    if (!messages.empty())
-        throw Failure(FailureKind::kRun, fmt::format("ODE at {} s, solving {} contacts at once: {}",
-                                                     time, contacts.size(), messages.text()));
-
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        bodies[i].velocities.linear = from_ode(dBodyGetLinearVel(world_->bodies[i]));
-        bodies[i].velocities.spin = from_ode(dBodyGetAngularVel(world_->bodies[i]));
+        bodies[i].velocities.linear = from_ode(dBodyGetLinearVel(world_->bodies[i].id));
+        bodies[i].velocities.spin = from_ode(dBodyGetAngularVel(world_->bodies[i].id));
     }
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         Contact& c = contacts[i];
-        const Vec3 relative = relative_velocity(
-            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
-        c.separation_speed = relative.dot(c.normal);
-        c.slip_after = tangential(relative, c.normal);
         const Vec3 impulse = kStep * from_ode(world_->feedback[i].f1);
         c.impulse = std::max(impulse.dot(c.normal), 0.0);
         c.tangential_impulse = tangential(impulse, c.normal).norm();
     }
     dJointGroupEmpty(world_->contacts.get());
+    while (world_->bodies.size() > kBodiesKept) {
+        dBodyDestroy(world_->bodies.back().id);
+        world_->bodies.pop_back();
+    }
+    if (!messages.empty() && contacts.size() == 1)
+        throw Failure(FailureKind::kRun,
+                      fmt::format("ODE at {} s, solving an impact: {}", time, messages.text()));
+    return messages.empty();
+}
+
+void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+                         double time) {
+    for (Contact& c : contacts) {
+        const Vec3 relative = relative_velocity(
+            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
+        c.approach_speed = -relative.dot(c.normal);
+        c.slip = tangential(relative, c.normal);
+    }
+    before_ = bodies;
+    const bool many = contacts.size() > kMostForOde;
+    if (many || !solve_with_ode(bodies, contacts, time) ||
+        (contacts.size() > 1 && !is_solved(before_, bodies, contacts))) {
+        bodies = before_;
+        solve_by_sweeps(bodies, contacts);
+        ++sweeps_;
+    }
+    for (Contact& c : contacts) {
+        const Vec3 relative = relative_velocity(
+            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
+        c.separation_speed = relative.dot(c.normal);
+        c.slip_after = tangential(relative, c.normal);
+    }
 }
 
 }  // namespace carom

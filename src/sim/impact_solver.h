@@ -1,22 +1,17 @@
 // Impacts of one instant, solved by ODE's contact joints in a world of its own: no gravity, no
 // position correction, no constraint force mixing, so that one dWorldStep is Newton's and Coulomb's
-// law to rounding (checked in tests/sim/impact_solver_test.cpp).
+// law to rounding (checked in tests/sim/impact_solver_test.cpp). Where ODE cannot solve several
+// contacts at once, sweeps do (impact_sweeps.h).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "sim/contact.h"
+#include "sim/impact_body.h"
 
 namespace carom {
-
-/// A ball as an impact sees it.
-struct ImpactBody {
-    Vec3 position = Vec3::Zero();  ///< m
-    Velocities velocities;
-    double mass = 1;       ///< kg
-    double inertia = 0.4;  ///< kg m^2, about any axis
-};
 
 class ImpactSolver {
   public:
@@ -28,15 +23,22 @@ class ImpactSolver {
     /// Solves all `contacts` at once. Their `ball` and `other` (unless a surface) index `bodies`;
     /// normal, arms, restitution and friction are used. Fills speeds, slips and impulses of the
     /// contacts, and the velocities of the bodies after the impact.
-    /// Throws Failure(kRun) naming `time` [s] when ODE reports a problem.
+    /// Throws Failure(kRun) naming `time` [s] when ODE cannot solve a single contact.
     void solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts, double time);
+
+    /// How often sweeps had to help so far.
+    std::int64_t sweeps() const { return sweeps_; }
 
   private:
     struct World;
-    void prepare(const std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts);
+    void prepare(const std::vector<ImpactBody>& bodies);
     void add_joint(const Contact& contact, std::size_t index);
+    bool solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+                        double time);
 
     std::unique_ptr<World> world_;
+    std::vector<ImpactBody> before_;
+    std::int64_t sweeps_ = 0;
 };
 
 }  // namespace carom

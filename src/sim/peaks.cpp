@@ -1,11 +1,15 @@
 #include "sim/peaks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace carom {
 
 namespace {
+
+/// A gap of this fraction of a place is its rounding.
+constexpr double kTouching = 1e-14;
 
 /// The time of the turn inside a piece, where n . v(t) = 0 on its way down.
 std::optional<double> turn_in(const Piece& piece, const Vec3& normal, double from, double to) {
@@ -14,6 +18,20 @@ std::optional<double> turn_in(const Piece& piece, const Vec3& normal, double fro
     const double t = piece.start - normal.dot(piece.velocity) / a;
     if (!(t > from && t < to)) return std::nullopt;
     return t;
+}
+
+/// The gap under a ball at its turn. A piece that starts on the impact itself has no gap then: what
+/// it gains is v^2 / (2 g_n), without the rounding of the place that a small hop would drown in.
+double gap_at(const Piece& piece, const Event& impact, double radius, double turn) {
+    const auto gap = [&](const Vec3& x) { return impact.normal.dot(x - impact.point) - radius; };
+    const double scale = piece.position.cwiseAbs().maxCoeff() + radius;
+    if (piece.start == impact.time && std::abs(gap(piece.position)) <= kTouching * scale) {
+        const double v = impact.normal.dot(piece.velocity);
+        return v * v / (-2 * impact.normal.dot(piece.acceleration));
+    }
+    return gap(piece.position +
+               (turn - piece.start) *
+                   (piece.velocity + (0.5 * (turn - piece.start)) * piece.acceleration));
 }
 
 /// The highest turn of the gap between two instants.
@@ -26,8 +44,7 @@ std::optional<Peak> highest(const Trajectory& ball, double radius, const Event& 
         const double end = i + 1 < pieces.size() ? std::min(pieces[i + 1].start, to) : to;
         const std::optional<double> turn = turn_in(pieces[i], impact.normal, begin, end);
         if (!turn) continue;
-        const Vec3 above = pieces[i].at(*turn).position - impact.point;
-        const double height = impact.normal.dot(above) - radius;
+        const double height = gap_at(pieces[i], impact, radius, *turn);
         if (height > 0 && (!best || height > best->height)) best = Peak{*turn, height};
     }
     return best;

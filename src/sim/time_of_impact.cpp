@@ -15,11 +15,27 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// join tangentially, so that the feature that is really met passes by far.
 constexpr double kRounding = 64 * kEpsilon;
 
+/// |p|^2 - d^2 as if computed with twice the digits (T. Ogita, S. M. Rump, S. Oishi, "Accurate sum
+/// and dot product", SIAM J. Sci. Comput. 26, 2005, algorithm Dot2): the sign decides of grazing.
+double squared_difference(const Vec3& p, double d) {
+    const double minus_d = -d;
+    double sum = 0, lost = 0;
+    const auto add = [&sum, &lost](double x, double y) {
+        const double product = x * y;
+        const double next = sum + product;
+        const double part = next - sum;
+        lost += ((sum - (next - part)) + (product - part)) + std::fma(x, y, -product);
+        sum = next;
+    };
+    for (int i = 0; i < 3; ++i) add(p[i], p[i]);
+    add(minus_d, d);
+    return sum + lost;
+}
+
 /// |p|^2 - d^2 along a path.
 Polynomial squared_distance(const Path& p, double d) {
-    const double r = p.position.norm();
     const Vec3 half = 0.5 * p.acceleration;
-    return {{(r - d) * (r + d), 2 * p.position.dot(p.velocity),
+    return {{squared_difference(p.position, d), 2 * p.position.dot(p.velocity),
              p.velocity.squaredNorm() + 2 * p.position.dot(half), 2 * p.velocity.dot(half),
              half.squaredNorm()}};
 }

@@ -1,0 +1,223 @@
+// Islands: balls that lasting contacts hold together, stepped by ODE until they fall apart into
+// balls whose motion has a closed form, or come to rest.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "sim/exact_run.h"
+#include "sim/island_step.h"
+
+namespace carom {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// An island rests when none of its balls has moved faster than this fraction of g h for
+/// kCalmSeconds: gravity sets nothing in motion there at more than 5e-5 g. What ODE's constraint
+/// force mixing leaves of a resting pile's speeds is a hundred times less.
+constexpr double kCalmFraction = 1e-3;
+constexpr double kCalmSeconds = 20 * kIslandStep;
+
+/// Steps that end within so many roundings of the time end together.
+constexpr double kSameInstant = 16 * std::numeric_limits<double>::epsilon();
+
+/// Links that one impact can pass through at once, by Newton's law. What is left beyond them is
+/// solved by the next step, without rebound.
+constexpr std::size_t kMostLinked = 40;
+
+/// Rounds per contact of a cluster in an island.
+constexpr std::size_t kLinkedRounds = 2;
+
+/// The balls of `set`, sorted, as islands: in order of their first balls.
+std::vector<std::vector<int>> islands_of(const std::vector<int>& set, const Links& links) {
+    std::vector<std::vector<int>> islands;
+    std::map<int, bool> taken;
+    for (const int first : set) {
+        if (taken[first]) continue;
+        taken[first] = true;
+        std::vector<int> island = {first};
+        for (std::size_t k = 0; k < island.size(); ++k)
+            for (const Link& link : links.of(island[k]))
+                if (!link.partner.is_surface && !std::exchange(taken[link.partner.index], true))
+                    island.push_back(link.partner.index);
+        std::sort(island.begin(), island.end());
+        islands.push_back(std::move(island));
+    }
+    return islands;
+}
+
+}  // namespace
+
+// ---- Into an island
+// ------------------------------------------------------------------------------
+
+/// The ball gets these velocities, and its island takes a step at once.
+void ExactRun::join(int ball, double now, const Velocities& velocities) {
+    ExactBall& b = world_.ball(ball);
+    if (b.surface >= 0) {
+        Link link;
+        link.partner = {true, b.surface};
+        link.last = world_.contact_at(ball, link.partner, now);
+        link.stated = std::isinf(b.row_due) ? b.kind : EventKind::kLeave;
+        links_.of(ball) = {link};
+    }
+    BallState at = world_.state(ball, now);
+    at.velocity = velocities.linear;
+    at.spin = velocities.spin;
+    b.surface = -1;
+    b.stepped = true;
+    b.asleep = false;
+    b.steps = b.calm_steps = 0;
+    b.row_due = kInfinity;
+    b.phase_end = now;
+    begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+}
+
+/// The contacts that are met now, and those links through which they may act.
+std::vector<Contact> ExactRun::linked_contacts(const std::vector<Contact>& seeds,
+                                               double now) const {
+    std::vector<Contact> all = seeds;
+    std::vector<int> balls;
+    const auto reach = [&balls](int ball) {
+        if (std::find(balls.begin(), balls.end(), ball) == balls.end()) balls.push_back(ball);
+    };
+    for (const Contact& seed : seeds) {
+        reach(seed.ball);
+        if (!seed.other.is_surface) reach(seed.other.index);
+    }
+    for (std::size_t k = 0; k < balls.size(); ++k)
+        for (const Link& link : links_.of(balls[k])) {
+            if (all.size() >= seeds.size() + kMostLinked) return all;
+            const Contact c = world_.contact_at(balls[k], link.partner, now);
+            const bool known = std::any_of(all.begin(), all.end(), [&c](const Contact& other) {
+                return other.ball == c.ball && other.other == c.other;
+            });
+            if (!known) all.push_back(c);
+            if (!link.partner.is_surface) reach(link.partner.index);
+        }
+    return all;
+}
+
+bool ExactRun::in_island(const Cluster& cluster) const {
+    return std::any_of(cluster.balls().begin(), cluster.balls().end(), [this](int ball) {
+        return world_.ball(ball).stepped || world_.ball(ball).asleep;
+    });
+}
+
+/// In an island, what is slower than a step can tell is left to the step, and a pile that goes on
+/// passing an impact to and fro is given up on as one inelastic contact.
+Cluster::Limits ExactRun::limits_of(const Cluster& cluster) const {
+    if (!in_island(cluster)) return {};
+    return {slow_speed(world_), kLinkedRounds * cluster.contact_count()};
+}
+
+void ExactRun::settle_cluster(const Cluster& cluster, double now) {
+    const bool stepped = in_island(cluster);
+    for (const int ball : cluster.balls()) {
+        const Velocities& velocities = cluster.body(ball).velocities;
+        if (stepped)
+            join(ball, now, velocities);
+        else
+            settle(ball, now, velocities, cluster.contacts_of(ball), cluster.first_approach(),
+                   false);
+    }
+}
+
+// ---- A step
+// ---------------------------------------------------------------------------------------
+
+void ExactRun::step_islands(const std::vector<int>& balls, double now) {
+    std::vector<int> due;
+    for (const int ball : balls)
+        if (world_.ball(ball).stepped && world_.ball(ball).phase_end <= now * (1 + kSameInstant))
+            due.push_back(ball);  // the others have taken their step with an island already
+    const std::vector<int> set = link_neighbours(due, now);
+    for (const std::vector<int>& island : islands_of(set, links_)) {
+        if (island.size() == 1 && leave_island(island.front(), now)) continue;
+        step_island(island, now);
+    }
+    for (const int ball : set) predict(ball, now);
+}
+
+/// A ball that is alone, or has just one contact with a closed form, needs no steps.
+bool ExactRun::leave_island(int ball, double now) {
+    std::vector<Link>& links = links_.of(ball);
+    const BallState at = world_.state(ball, now);
+    const Velocities velocities{at.velocity, at.spin};
+    if (links.empty()) {
+        fly(ball, now, velocities);
+        return true;
+    }
+    // It joined because there was no closed form: it takes a step before that is tried again.
+    if (links.size() > 1 || world_.ball(ball).steps == 0) return false;
+    const Link link = links.front();
+    const Contact contact = world_.contact_at(ball, link.partner, now);
+    if (!link.pressed && velocities.linear.dot(contact.normal) > 0) {  // it has lifted off
+        if (link.stated != EventKind::kLeave || link.from_start)
+            row_of(contact, EventKind::kLeave, now);
+        links.clear();
+        fly(ball, now, velocities);
+        return true;
+    }
+    if (!can_hold(ball, now, contact, velocities)) return false;
+    if (link.stated != EventKind::kLeave) {
+        world_.ball(ball).surface = link.partner.index;
+        world_.ball(ball).kind = link.stated;
+    }
+    links.clear();
+    hold(ball, now, contact, velocities, 0, link.from_start);
+    return true;
+}
+
+void ExactRun::step_island(const std::vector<int>& balls, double now) {
+    IslandStep step(world_, links_, balls, now);
+    step.correct_positions();
+    step.solve(island_solver_);
+    ++report_.steps;
+
+    const double calm_speed = kCalmFraction * world_.scene.simulation.gravity.norm() * kIslandStep;
+    const bool calm = step.is_calm(calm_speed);
+    bool asleep = calm;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        ExactBall& b = world_.ball(balls[i]);
+        const IslandStep::Result& r = step.result(i);
+        b.calm_steps = calm ? b.calm_steps + 1 : 0;
+        asleep = asleep && b.calm_steps * step.seconds() >= kCalmSeconds;
+        ++b.steps;
+        b.phase_end = now + step.seconds();
+        b.stepped = true;
+        begin_piece(balls[i], now, r.start, r.acceleration, r.spin_rate);
+    }
+    for (std::size_t i = 0; i < step.contacts().size(); ++i) {
+        const Contact& c = step.contacts()[i];
+        for (Link& link : links_.of(c.ball)) {
+            if (link.partner != c.other) continue;
+            link.push = step.push(i);
+            note_link(link, c, calm, calm_speed, now);
+        }
+    }
+    if (asleep) fall_asleep(balls, now, calm_speed);
+}
+
+/// The balls stop exactly where they are; spins about the normals of their contacts go on.
+void ExactRun::fall_asleep(const std::vector<int>& balls, double now, double calm_speed) {
+    for (const int ball : balls) {
+        ExactBall& b = world_.ball(ball);
+        BallState at = world_.state(ball, now);
+        at.velocity.setZero();
+        if (world_.body(ball).radius * at.spin.norm() < calm_speed) at.spin.setZero();
+        b.stepped = false;
+        b.asleep = true;
+        b.phase_end = kInfinity;
+        begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+        for (Link& link : links_.of(ball)) {
+            const bool news = !link.from_start && link.stated != EventKind::kRest;
+            if (link.pressed && news) row_of(link.last, EventKind::kRest, now);
+            if (link.pressed) link.stated = EventKind::kRest;
+        }
+    }
+}
+
+}  // namespace carom
