@@ -38,6 +38,11 @@ struct Velocities {
     Vec3 spin = Vec3::Zero();
 };
 
+/// What is left of `v` along the surface with this unit normal.
+inline Vec3 tangential_part(const Vec3& v, const Vec3& normal) {
+    return v - v.dot(normal) * normal;
+}
+
 /// Velocity of `ball`'s material point at the contact minus the other's [m/s].
 inline Vec3 relative_velocity(const Contact& contact, const Velocities& ball,
                               const Velocities& other) {

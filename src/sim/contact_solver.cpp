@@ -27,8 +27,6 @@ double largest_speed(const std::vector<Velocities>& balls) {
     return speed;
 }
 
-Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
-
 }  // namespace
 
 // ---- Islands
@@ -82,7 +80,7 @@ void ContactSolver::prepare(Contact& contact, const std::vector<Velocities>& bef
     const Velocities other = of_other(contact, before);
     const Vec3 relative = relative_velocity(contact, ball, other);
     contact.approach_speed = -relative.dot(contact.normal);
-    contact.slip = tangential(relative, contact.normal);
+    contact.slip = tangential_part(relative, contact.normal);
     const double rounding = kSpeedRounding * (ball.linear.norm() + other.linear.norm());
     contact.impact = contact.approach_speed > rules_.impact_threshold + rounding;
 }
@@ -137,12 +135,12 @@ void ContactSolver::set_friction(const Contact& contact, dContact& joint) const 
     // Two balls fall alike: gravity changes only the slip on a surface.
     Vec3 free_slip = contact.slip;
     if (contact.other.is_surface)
-        free_slip += rules_.step * tangential(rules_.gravity, contact.normal);
+        free_slip += rules_.step * tangential_part(rules_.gravity, contact.normal);
     const double speed = free_slip.norm();
     if (!(speed > 0)) return;  // nothing to resist: any pair of axes will do
     joint.surface.mode |= dContactFDir1;
     // Across the normal again after the division, where a tiny slip is mostly rounding.
-    to_ode(tangential(free_slip / speed, contact.normal).normalized(), joint.fdir1);
+    to_ode(tangential_part(free_slip / speed, contact.normal).normalized(), joint.fdir1);
 }
 
 void ContactSolver::finish(std::vector<Contact>& contacts, const std::vector<Velocities>& after) {
@@ -152,10 +150,10 @@ void ContactSolver::finish(std::vector<Contact>& contacts, const std::vector<Vel
         const Vec3 relative = relative_velocity(
             contact, after[static_cast<std::size_t>(contact.ball)], of_other(contact, after));
         contact.separation_speed = relative.dot(contact.normal);
-        contact.slip_after = tangential(relative, contact.normal);
+        contact.slip_after = tangential_part(relative, contact.normal);
         const Vec3 impulse = rules_.step * from_ode(feedback_[i].f1);
         contact.impulse = std::max(impulse.dot(contact.normal), 0.0);
-        contact.tangential_impulse = tangential(impulse, contact.normal).norm();
+        contact.tangential_impulse = tangential_part(impulse, contact.normal).norm();
     }
     world_.clear_contacts();
 }

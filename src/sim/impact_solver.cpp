@@ -27,8 +27,6 @@ constexpr std::size_t kMostForOde = 100;
 /// where it succeeds, these are roundings.
 constexpr double kWrong = 1e-11;
 
-Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
-
 Velocities other_velocities(const Contact& c, const std::vector<ImpactBody>& bodies) {
     return c.other.is_surface ? Velocities{}
                               : bodies[static_cast<std::size_t>(c.other.index)].velocities;
@@ -100,11 +98,7 @@ void ImpactSolver::prepare(const std::vector<ImpactBody>& bodies) {
             world_->bodies[i] = {body, b.mass, b.inertia};
         }
         dBodyEnable(body);
-        const Vec3 p = b.position - origin;
-        const Velocities& v = b.velocities;
-        dBodySetPosition(body, p.x(), p.y(), p.z());
-        dBodySetLinearVel(body, v.linear.x(), v.linear.y(), v.linear.z());
-        dBodySetAngularVel(body, v.spin.x(), v.spin.y(), v.spin.z());
+        set_motion(body, b.position - origin, b.velocities.linear, b.velocities.spin);
     }
 }
 
@@ -121,7 +115,7 @@ void ImpactSolver::add_joint(const Contact& contact, std::size_t index) {
         // The first axis along the slip makes ODE's friction box Coulomb's cone for this contact.
         if (const double slip = contact.slip.norm(); slip > 0) {
             joint.surface.mode |= dContactFDir1;
-            to_ode(tangential(contact.slip / slip, contact.normal).normalized(), joint.fdir1);
+            to_ode(tangential_part(contact.slip / slip, contact.normal).normalized(), joint.fdir1);
         }
     }
     const dJointID id = dJointCreateContact(world_->world.get(), world_->contacts.get(), &joint);
@@ -147,7 +141,7 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
         Contact& c = contacts[i];
         const Vec3 impulse = kStep * from_ode(world_->feedback[i].f1);
         c.impulse = std::max(impulse.dot(c.normal), 0.0);
-        c.tangential_impulse = tangential(impulse, c.normal).norm();
+        c.tangential_impulse = tangential_part(impulse, c.normal).norm();
     }
     dJointGroupEmpty(world_->contacts.get());
     while (world_->bodies.size() > kBodiesKept) {
@@ -166,7 +160,7 @@ void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& 
         const Vec3 relative = relative_velocity(
             c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
         c.approach_speed = -relative.dot(c.normal);
-        c.slip = tangential(relative, c.normal);
+        c.slip = tangential_part(relative, c.normal);
     }
     before_ = bodies;
     const bool many = contacts.size() > kMostForOde;
@@ -180,7 +174,7 @@ void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& 
         const Vec3 relative = relative_velocity(
             c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
         c.separation_speed = relative.dot(c.normal);
-        c.slip_after = tangential(relative, c.normal);
+        c.slip_after = tangential_part(relative, c.normal);
     }
 }
 

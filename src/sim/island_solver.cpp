@@ -23,8 +23,6 @@ constexpr double kTie = 1e-6;
 /// Speeds that differ by this fraction of the balls' speeds are equal.
 constexpr double kSpeedRounding = 1e-13;
 
-Vec3 tangential(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
-
 Vec3 relative_of(const Contact& c, const std::vector<ImpactBody>& bodies) {
     const Velocities other = c.other.is_surface
                                  ? Velocities{}
@@ -80,11 +78,7 @@ void IslandSolver::place(const std::vector<ImpactBody>& bodies, const Vec3& grav
         dMassSetParameters(&mass, b.mass, 0, 0, 0, b.inertia, b.inertia, b.inertia, 0, 0, 0);
         dBodySetMass(body, &mass);
         dBodyEnable(body);
-        const Vec3 p = b.position - origin;
-        const Velocities& v = b.velocities;
-        dBodySetPosition(body, p.x(), p.y(), p.z());
-        dBodySetLinearVel(body, v.linear.x(), v.linear.y(), v.linear.z());
-        dBodySetAngularVel(body, v.spin.x(), v.spin.y(), v.spin.z());
+        set_motion(body, b.position - origin, b.velocities.linear, b.velocities.spin);
     }
 }
 
@@ -108,7 +102,7 @@ void IslandSolver::add_joint(const Contact& contact, std::size_t index) {
         const Vec3& slip = world_->axis[index];
         if (const double speed = slip.norm(); speed > 0) {
             joint.surface.mode |= dContactFDir1;
-            to_ode(tangential(slip / speed, contact.normal).normalized(), joint.fdir1);
+            to_ode(tangential_part(slip / speed, contact.normal).normalized(), joint.fdir1);
         }
         if (world_->slides[index] != 0) {
             joint.surface.mode |= dContactMu2;
@@ -132,7 +126,8 @@ void IslandSolver::follow_slip(const Contact& c, const ImpactBody& body, const V
     const double speed = c.slip.norm();
     const double slowing = c.friction * std::max(-fall.dot(c.normal), 0.0) * (1 + 1 / k);
     if (!(speed > 2 * (slowing + fall.norm()))) return;
-    world_->axis[index] = c.slip + 0.5 * (tangential(fall, c.normal) - slowing / speed * c.slip);
+    world_->axis[index] =
+        c.slip + 0.5 * (tangential_part(fall, c.normal) - slowing / speed * c.slip);
     world_->slides[index] = 1;
 }
 
@@ -172,9 +167,9 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<Contact>& c
         // Two balls fall alike: gravity only matters against a surface.
         const Vec3 fall = c.other.is_surface ? Vec3(seconds * gravity) : Vec3(Vec3::Zero());
         c.approach_speed = -v_n;
-        c.slip = tangential(relative, c.normal);
+        c.slip = tangential_part(relative, c.normal);
         c.alone = contacts.size() == 1;
-        world_->axis[i] = c.slip + tangential(fall, c.normal);
+        world_->axis[i] = c.slip + tangential_part(fall, c.normal);
         world_->slides[i] = 0;
         if (c.alone && c.other.is_surface) follow_slip(c, bodies.front(), fall, i);
         double& target = world_->target[i];
@@ -191,9 +186,9 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<Contact>& c
         Contact& c = contacts[i];
         const Vec3 relative = relative_of(c, bodies);
         c.separation_speed = relative.dot(c.normal);
-        c.slip_after = tangential(relative, c.normal);
+        c.slip_after = tangential_part(relative, c.normal);
         c.impulse = std::max(pushes[i].dot(c.normal), 0.0);
-        c.tangential_impulse = tangential(pushes[i], c.normal).norm();
+        c.tangential_impulse = tangential_part(pushes[i], c.normal).norm();
     }
 }
 

@@ -37,6 +37,13 @@ inline void to_ode(const Vec3& from, dReal* to) {
     to[3] = 0;
 }
 
+/// Place [m], velocity [m/s] and spin [rad/s, world axes] of a body.
+inline void set_motion(dBodyID body, const Vec3& position, const Vec3& velocity, const Vec3& spin) {
+    dBodySetPosition(body, position.x(), position.y(), position.z());
+    dBodySetLinearVel(body, velocity.x(), velocity.y(), velocity.z());
+    dBodySetAngularVel(body, spin.x(), spin.y(), spin.z());
+}
+
 /// What hangs on each geom: who it is, and its virtual body, as the paper's section 7 has it.
 struct GeomTag {
     Partner self;              ///< a ball or a surface

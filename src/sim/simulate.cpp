@@ -5,7 +5,7 @@
 
 namespace carom {
 
-SimulationResult simulate(const Scene& scene, std::stop_token stop,
+SimulationResult simulate(const Scene& scene, const std::stop_token& stop,
                           const SimulationProgress& progress) {
     switch (scene.simulation.method) {
         case Method::kFixed:

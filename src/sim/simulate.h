@@ -35,7 +35,7 @@ using SimulationProgress = std::function<void(double time)>;
 
 /// Runs the scene's method. Throws Failure(kRun) when the solver fails, a state is not finite
 /// (naming ball and time), or `stop` was requested.
-SimulationResult simulate(const Scene& scene, std::stop_token stop = {},
+SimulationResult simulate(const Scene& scene, const std::stop_token& stop = {},
                           const SimulationProgress& progress = {});
 
 }  // namespace carom
