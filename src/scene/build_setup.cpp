@@ -18,6 +18,26 @@ std::optional<double> read_duration(const Fields& fields) {
     return fields.number("duration");
 }
 
+/// Keys that the method or the solver at hand does not read, where they say something of their own.
+void warn_of_unread_keys(Build& build, const Fields& fields) {
+    const Simulation& simulation = build.scene.simulation;
+    const auto warn = [&](const char* key, const std::string& reader, const std::string& chosen) {
+        build.report.warning(*fields.find(key),
+                             fmt::format("'{}' is read by {} only, and this scene's is {}", key,
+                                         reader, chosen));
+    };
+    const Simulation defaults;
+    if (simulation.method == Method::kExact) {
+        const std::string reader = "the method 'fixed'";
+        if (simulation.step != defaults.step) warn("step", reader, "'exact'");
+        if (simulation.solver != defaults.solver) warn("solver", reader, "'exact'");
+        if (simulation.iterations != defaults.iterations) warn("iterations", reader, "'exact'");
+    } else if (simulation.solver != Solver::kQuick &&
+               simulation.iterations != defaults.iterations) {
+        warn("iterations", "the solver 'quick'", "'world'");
+    }
+}
+
 void build_simulation(Build& build) {
     const Fields fields = build.top().child("simulation");
     Simulation& simulation = build.scene.simulation;
@@ -25,10 +45,11 @@ void build_simulation(Build& build) {
     simulation.max_duration = fields.number("max_duration");
     simulation.gravity = fields.vec3("gravity");
     simulation.restitution_constant = fields.number("restitution_constant");
-    simulation.method = fields.word("method") == "exact" ? Method::kExact : Method::kFixed;
+    simulation.method = fields.word("method") == "fixed" ? Method::kFixed : Method::kExact;
     simulation.step = fields.number("step");
     simulation.solver = fields.word("solver") == "quick" ? Solver::kQuick : Solver::kWorld;
     simulation.iterations = fields.integer("iterations");
+    warn_of_unread_keys(build, fields);
 }
 
 /// The fraction with the smallest denominator that is `value` to 12 digits, by continued fractions:

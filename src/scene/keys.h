@@ -105,8 +105,6 @@ struct KeySpec {
     Section child = Section::kScene;  ///< of kMap, kNamedMaps, kMaps
     NameKind refers_to = NameKind::kNone;
     std::vector<std::string_view> words{};  ///< of kWord
-    std::string_view refused_word{};        ///< a word that gets `refused_why` for an answer
-    std::string_view refused_why{};
     Range range{};
     std::string_view unit{};
     Fallback fallback{};

@@ -125,17 +125,13 @@ std::vector<KeySpec> setup_keys() {
          .fallback = 4.0,
          .doc = "K of Eq. 7, which turns a virtual body into a coefficient of restitution.",
          .example = "4.0"},
-        // The exact method is not part of this version. With it: words {"exact", "fixed"},
-        // fallback "exact", and the two refused_ fields go.
         {.section = kSimulation,
          .key = "method",
          .forms = kWord,
-         .words = {"fixed"},
-         .refused_word = "exact",
-         .refused_why = "this version has the method 'fixed' only; write 'method: fixed', or leave "
-                        "the key out",
-         .fallback = "fixed",
-         .doc = "`fixed`: one step size, as in the paper.",
+         .words = {"exact", "fixed"},
+         .fallback = "exact",
+         .doc = "`exact`: closed-form motion between impacts that are located in time; `fixed`: "
+                "one step size, as in the paper.",
          .example = "fixed"},
         {.section = kSimulation,
          .key = "step",

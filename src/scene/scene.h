@@ -116,7 +116,7 @@ struct Simulation {
     double max_duration = 600;          ///< s
     Vec3 gravity = Vec3(0, 0, -9.81);   ///< m/s^2
     double restitution_constant = 4.0;  ///< K of Eq. 7, 1/s
-    Method method = Method::kFixed;
+    Method method = Method::kExact;
     double step = 0.00025;  ///< s, method fixed only
     Solver solver = Solver::kWorld;
     int iterations = 20;  ///< solver quick only

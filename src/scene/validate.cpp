@@ -138,9 +138,6 @@ bool Validator::scalar(Node& node, const KeySpec& spec) {
             if (takes(form::kBool)) return true;
             break;
         case Scalar::Kind::kText:
-            if (!spec.refused_word.empty() && node.text == spec.refused_word)
-                return wrong(node, fmt::format("'{}: {}' is not available: {}", spec.key,
-                                               spec.refused_word, spec.refused_why));
             if (takes(form::kText)) return true;
             if (takes(form::kWord) &&
                 std::find(spec.words.begin(), spec.words.end(), node.text) != spec.words.end())

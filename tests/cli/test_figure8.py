@@ -39,7 +39,7 @@ def major_marks(picture):
     """Rows of the ruler's major marks: the column left of the staff that only the longest marks reach."""
     ink = [[y for y in range(HEIGHT) if is_ink(picture[y][x])] for x in range(WIDTH)]
     staff = max(range(WIDTH), key=lambda x: len(ink[x]))
-    for x in range(staff - 1, staff - 30, -1):
+    for x in range(staff - 30, staff):  # the minor marks begin nearer to the staff
         marks = clusters(ink[x])[-len(MAJOR_MARKS_M) :]  # above them stands the unit
         steps = [b - a for a, b in zip(marks, marks[1:])]
         if len(marks) == len(MAJOR_MARKS_M) and max(steps) < 1.1 * min(steps):

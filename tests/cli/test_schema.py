@@ -66,7 +66,7 @@ WRONG = [
     (["simulation", "gravity"], [0, 0]),
     (["simulation", "gravity"], [0, 0, "down"]),
     (["simulation", "restitution_constant"], 0),
-    (["simulation", "method"], "exact"),
+    (["simulation", "method"], "euler"),
     (["simulation", "step"], 0),
     (["simulation", "solver"], "slow"),
     (["simulation", "iterations"], 0),

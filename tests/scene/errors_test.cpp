@@ -63,11 +63,9 @@ TEST(Errors, Simulation) {
         {"simulation: {step: \"1\"}", "2:20: error: 'step' must be a number (s), not the text '1'"},
         {"simulation: {step: .NaN}", "2:20: error: 'step' must be a finite number, not .NaN"},
         {"simulation: {step: 1e400}", "2:20: error: 'step' must be a finite number, not 1e400"},
-        {"simulation: {method: exact}",
-         "2:22: error: 'method: exact' is not available: this version has the method 'fixed' only; "
-         "write 'method: fixed', or leave the key out"},
         {"simulation: {method: exat}",
-         "2:22: error: 'method' must be 'fixed', not the text 'exat'"},
+         "2:22: error: 'method' must be one of exact, fixed, not the "
+         "text 'exat'; did you mean 'exact'?"},
         {"simulation: {solver: quik}",
          "2:22: error: 'solver' must be one of world, quick, not the "
          "text 'quik'; did you mean 'quick'?"},
@@ -319,6 +317,24 @@ TEST(Warnings, FrictionThatOnlyOnePartnerNames) {
     EXPECT_EQ(errors_of(head + "surfaces: [{name: f, plane: {}, material: rough}, {name: g, plane: "
                                "{offset: -1}, material: smooth}]\n"),
               "");
+}
+
+TEST(Warnings, KeysThatTheMethodDoesNotRead) {
+    const auto warnings = [](const std::string& simulation) {
+        return errors_of("carom: 1\nsimulation: {" + simulation + "}\n");
+    };
+    EXPECT_EQ(warnings("step: 0.001"),
+              "t.yaml:2:20: warning: 'step' is read by the method 'fixed' only, and this scene's is "
+              "'exact'\n");
+    EXPECT_EQ(warnings("method: exact, solver: quick"),
+              "t.yaml:2:37: warning: 'solver' is read by the method 'fixed' only, and this scene's "
+              "is 'exact'\n");
+    EXPECT_EQ(warnings("method: fixed, iterations: 7"),
+              "t.yaml:2:41: warning: 'iterations' is read by the solver 'quick' only, and this "
+              "scene's is 'world'\n");
+    // The defaults, written out, say nothing of their own.
+    EXPECT_EQ(warnings("method: exact, step: 0.00025, solver: world, iterations: 20"), "");
+    EXPECT_EQ(warnings("method: fixed, step: 0.001, solver: quick, iterations: 7"), "");
 }
 
 }  // namespace
