@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what packages.txt lists and this machine lacks, then builds.
-#   scripts/setup.sh [--group film|test|long]... [--preset PRESET]...
+#   scripts/setup.sh [--group film|test|bench|long]... [--preset PRESET]...
 # Without options: group film, preset release. Takes seconds when nothing has changed.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -17,6 +17,11 @@ for preset in dev tsan; do
     ctest --preset "$preset" -j "$(nproc)"
 done
 
+echo "test_long: the same motion in Debug and Release"
+cmake --build --preset release-tests --target carom
+CAROM=build/release-tests/carom CAROM_OTHER=build/dev/carom CAROM_SOURCE_DIR=. \
+    python3 -B tests/cli/test_same_motion.py -v
+
 echo "test_long: film in a browser"
 build/release-tests/carom render scenes/figure9.yaml -o out/figure9.mp4 -y
 python3 -B tests/browser/play_film.py out/figure9.mp4

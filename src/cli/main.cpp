@@ -65,6 +65,9 @@ int run_program(int argc, char** argv) {
     add_check_command(app, run);
     add_compare_command(app, run);
     add_golden_command(app, run, interrupt);
+    add_accuracy_command(app, run, interrupt);
+    add_figures_command(app, run, interrupt);
+    add_fit_command(app, run);
     add_schema_command(app, run);
     add_info_command(app, run);
 

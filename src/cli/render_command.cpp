@@ -113,6 +113,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
         simulated = simulate(*scene, interrupt.token());
     }
     const Motion& motion = simulated.motion;
+    stats.add_verdict(*scene, motion, options.common.quiet);
     const std::vector<std::int64_t> frames =
         wanted_frames(options, frame_count(scene->film, motion.duration));
     check_outputs(requests(options), frames, options.common.overwrite);

@@ -71,6 +71,7 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
         const CpuTimer timer(stats.sim_cpu_s);
         simulated = simulate(*scene, interrupt.token());
     }
+    stats.add_verdict(*scene, simulated.motion, options.common.quiet);
 
     {
         const CpuTimer timer(stats.sinks.write_cpu_s);

@@ -45,6 +45,11 @@ void Stats::add_painter(const Painter& painter) {
     for (const auto& [name, effect] : painter.effects()) effects[name] = {effect.on, effect.why};
 }
 
+void Stats::add_verdict(const Scene& scene, const Motion& motion, bool quiet) {
+    verdict = judge_rebound(scene, motion);
+    if (verdict && !quiet) fmt::print(stderr, "carom: {}\n", verdict_text(scene, *verdict));
+}
+
 std::map<std::string, std::string> library_versions() {
     std::map<std::string, std::string> versions = {{"carom", CAROM_VERSION}};
     versions.merge(simulation_versions());
@@ -80,6 +85,11 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
     if (result != nullptr) {
         json["motion_hash"] = fmt::format("{:016x}", result->motion.hash());
         json["balls"] = balls_json(result->motion);
+        if (stats.verdict)
+            json["test"] = {{"passes", stats.verdict->passes},
+                            {"rebounded", stats.verdict->rebounded},
+                            {"height", stats.verdict->height_m},
+                            {"time", stats.verdict->time_s}};
     }
     return json.dump(2) + "\n";
 }

@@ -8,6 +8,7 @@
 
 #include "media/frame_sink.h"
 #include "render/painter.h"
+#include "render/rebound_verdict.h"
 #include "sim/simulate.h"
 
 namespace carom {
@@ -21,10 +22,13 @@ struct Stats {
     SinkTimes sinks;
     std::int64_t frames = 0;
     std::string renderer;
+    std::optional<ReboundVerdict> verdict;  ///< of the scene's test, if it has one
     std::map<std::string, Effect> effects;  ///< of the simulation and of the picture
 
     void add_sink(const SinkTimes& times);
     void add_painter(const Painter& painter);
+    /// Judges the scene's test, if it has one, and says the verdict on standard error.
+    void add_verdict(const Scene& scene, const Motion& motion, bool quiet);
 };
 
 /// The JSON text; `result` is empty only when nothing was simulated.

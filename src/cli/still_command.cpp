@@ -2,8 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
@@ -26,6 +30,7 @@ struct StillOptions {
     std::string scene;
     std::string output;
     double time = 0;
+    std::optional<double> strobe;  ///< s between instants
     CommonOptions common;
 };
 
@@ -38,6 +43,27 @@ void check_output(const StillOptions& options) {
         throw Failure(FailureKind::kInput,
                       fmt::format("-o {}: a still is a .png file", options.output));
     require_writable(options.output, options.common.overwrite);
+}
+
+/// The instants time - k strobe from 0 on, increasing; `time` itself is the last.
+std::vector<double> instants(const StillOptions& options) {
+    constexpr double kMostInstants = 10'000;
+    if (!options.strobe) return {options.time};
+    const double step = *options.strobe;
+    if (!(step > 0) || !std::isfinite(step))
+        throw Failure(
+            FailureKind::kInput,
+            fmt::format("--strobe {}: the time between two instants must be above 0 s", step));
+    // A start that is missed by rounding alone belongs to the picture.
+    const double steps = std::floor(options.time / step * (1 + 1e-12) + 1e-12);
+    if (steps >= kMostInstants)
+        throw Failure(FailureKind::kInput,
+                      fmt::format("--strobe {}: {:.3g} instants up to {} s; at most {:.0f} are "
+                                  "possible",
+                                  step, steps + 1, options.time, kMostInstants));
+    std::vector<double> result;
+    for (double k = steps; k >= 0; --k) result.push_back(std::max(0.0, options.time - k * step));
+    return result;
 }
 
 int still(const StillOptions& options, const Interrupt& interrupt) {
@@ -55,6 +81,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
         const CpuTimer timer(stats.sim_cpu_s);
         simulated = simulate(*scene, interrupt.token());
     }
+    stats.add_verdict(*scene, simulated.motion, options.common.quiet);
     const double duration = simulated.motion.duration;
     if (!(options.time >= 0 && options.time <= duration))
         throw Failure(FailureKind::kInput, fmt::format("--time {}: the motion lasts from 0 to {} s",
@@ -62,7 +89,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
 
     Painter painter(*scene, simulated.motion, {scene->film.width_px, scene->film.height_px});
     Image picture;
-    painter.paint(options.time, picture);
+    painter.paint_strobe(instants(options), picture);
     if (interrupt.requested()) return interrupt.exit_code();
     {
         const CpuTimer timer(stats.sinks.encode_cpu_s);
@@ -89,6 +116,10 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_option("--time", options->time, "Instant of the motion in seconds")
         ->required()
         ->type_name("T");
+    command
+        ->add_option("--strobe", options->strobe,
+                     "Lay the instants before T over one another, DT seconds apart")
+        ->type_name("DT");
     command->add_option("-o,--output", options->output, "picture.png, or - for standard output")
         ->required()
         ->type_name("OUT.png");

@@ -22,14 +22,36 @@ Quat rotation(const Vec3& v) {
 BallState Piece::at(double t) const {
     const double s = t - start;
     BallState state;
-    state.position = position + s * (velocity + (0.5 * s) * acceleration);
-    state.velocity = velocity + s * acceleration;
-    state.spin = spin + s * spin_rate;
+    state.position = position_at(t);
+    state.velocity = velocity_at(t);
+    state.spin = spin_at(t);
     const Vec3 turned =
-        s * (spin + (0.5 * s) * spin_rate) - (s * s * s / 12) * spin.cross(spin_rate);
+        curve ? curved_turn(s)
+              : Vec3(s * (spin + (0.5 * s) * spin_rate) - (s * s * s / 12) * spin.cross(spin_rate));
     state.orientation =
         turned.isZero(0) ? orientation : (rotation(turned) * orientation).normalized();
     return state;
+}
+
+Vec3 Piece::curved_turn(double s) const {
+    return s * (spin + (0.5 * s) * spin_rate) + curve_value(curve->turn, s / curve->seconds);
+}
+
+Vec3 Piece::curved_spin(double s) const {
+    const Vec3 rate =
+        spin + s * spin_rate + curve_rate(curve->turn, s / curve->seconds, curve->seconds);
+    return spin_of_turn(curved_turn(s), rate);
+}
+
+double Piece::largest_acceleration() const {
+    double sum = acceleration.norm();
+    if (!curve) return sum;
+    double k = 0;
+    for (const Vec3& term : curve->position) {
+        sum += (k + 3) * (k + 2) * term.norm() / (curve->seconds * curve->seconds);
+        ++k;
+    }
+    return sum;
 }
 
 const char* event_kind_name(EventKind kind) {
@@ -84,6 +106,10 @@ std::uint64_t Motion::hash() const {
             for (const Vec3& v : {p.position, p.velocity, p.acceleration, p.spin, p.spin_rate})
                 add_vector(v);
             for (int i = 0; i < 4; ++i) add(p.orientation.coeffs()[i]);
+            if (!p.curve) continue;
+            add(p.curve->seconds);
+            for (const Curve::Terms& terms : {p.curve->position, p.curve->turn})
+                for (const Vec3& term : terms) add_vector(term);
         }
     }
     for (const Event& e : events) {

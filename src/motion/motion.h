@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/types.h"
+#include "motion/curve.h"
 
 namespace carom {
 
@@ -27,6 +28,10 @@ struct BallState {
 /// Magnus series of q' = spin q / 2, good for s so short that |w|^2 |w x b| s^5 / 720 is (Blanes,
 /// Casas, Oteo, Ros, "The Magnus expansion and some of its applications", Physics Reports 470,
 /// 2009).
+///
+/// A piece with a curve is the numerical solution of a motion without closed form: the curve adds
+/// higher powers of s to the position, and to the turn u of the orientation exp(u) q, which is then
+/// w s + b s^2 / 2 plus those; the spin follows from it.
 struct Piece {
     double start = 0;  ///< s
     Vec3 position = Vec3::Zero();
@@ -35,8 +40,37 @@ struct Piece {
     Quat orientation = Quat::Identity();
     Vec3 spin = Vec3::Zero();
     Vec3 spin_rate = Vec3::Zero();
+    OptionalCurve curve = {};
 
-    BallState at(double t) const;  ///< t in seconds of the motion, not since start
+    // t in seconds of the motion, not since start.
+    BallState at(double t) const;
+    Vec3 position_at(double t) const {
+        const double s = t - start;
+        const Vec3 parabola = position + s * (velocity + (0.5 * s) * acceleration);
+        if (!curve) return parabola;
+        return parabola + curve_value(curve->position, s / curve->seconds);
+    }
+    Vec3 velocity_at(double t) const {
+        const double s = t - start;
+        const Vec3 line = velocity + s * acceleration;
+        if (!curve) return line;
+        return line + curve_rate(curve->position, s / curve->seconds, curve->seconds);
+    }
+    Vec3 acceleration_at(double t) const {
+        if (!curve) return acceleration;
+        const double u = (t - start) / curve->seconds;
+        return acceleration + curve_second_rate(curve->position, u, curve->seconds);
+    }
+    Vec3 spin_at(double t) const {
+        const double s = t - start;
+        return curve ? curved_spin(s) : Vec3(spin + s * spin_rate);
+    }
+    /// A bound of |acceleration| all over the piece, m/s^2.
+    double largest_acceleration() const;
+
+  private:
+    Vec3 curved_turn(double s) const;
+    Vec3 curved_spin(double s) const;
 };
 
 enum class EventKind { kImpact, kSlide, kRoll, kRest, kLeave };

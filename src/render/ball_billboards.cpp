@@ -93,7 +93,7 @@ BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInVie
         const int first = static_cast<int>(casters.vec4s.size() / 4);
         int count = 0;
         for (const BallInView& other : balls) {
-            if (&other == &ball || count == kMostCasters) continue;
+            if (&other == &ball || other.instant != ball.instant || count == kMostCasters) continue;
             // Between the ball and the lamp, within the penumbra's reach, or close enough to
             // darken.
             const Vec3 rel = other.center - ball.center;

@@ -8,6 +8,17 @@
 
 namespace carom {
 
+namespace {
+
+/// Nothing of the difference could be seen.
+bool same_place(const BallState& a, const BallState& b, double radius) {
+    constexpr double kUnseen = 1e-6;  // radii, and radians
+    return (a.position - b.position).norm() < kUnseen * radius &&
+           a.orientation.angularDistance(b.orientation) < kUnseen;
+}
+
+}  // namespace
+
 Outline project_sphere(const Vec3& center, double radius, const View& view) {
     // Nearer than this to the eye's plane, in radii, the ellipse grows beyond all bounds.
     constexpr double kClearance = 1.02;
@@ -33,20 +44,33 @@ Outline project_sphere(const Vec3& center, double radius, const View& view) {
 
 std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& motion,
                                  const View& view) {
+    return balls_at(std::vector<double>{t}, scene, motion, view);
+}
+
+std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scene& scene,
+                                 const Motion& motion, const View& view) {
     CAROM_CHECK(scene.balls.size(), ==, motion.balls.size());
     Mat3 view_from_world;
     for (int axis = 0; axis < 3; ++axis)
         view_from_world.col(axis) = view_direction(view, Vec3::Unit(axis));
 
-    std::vector<BallInView> balls(scene.balls.size());
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        const BallState state = motion.balls[i].at(t);
-        balls[i].center = view_point(view, state.position);
-        balls[i].radius = scene.balls[i].radius;
-        const Mat3 world_from_ball = state.orientation.toRotationMatrix();
-        balls[i].ball_from_view = world_from_ball.transpose() * view_from_world.transpose();
-        balls[i].index = static_cast<int>(i);
-        balls[i].look = scene.balls[i].look;
+    std::vector<BallInView> balls;
+    balls.reserve(instants.size() * scene.balls.size());
+    for (std::size_t k = 0; k < instants.size(); ++k) {
+        for (std::size_t i = 0; i < scene.balls.size(); ++i) {
+            const BallState state = motion.balls[i].at(instants[k]);
+            if (k + 1 < instants.size() &&
+                same_place(state, motion.balls[i].at(instants[k + 1]), scene.balls[i].radius))
+                continue;
+            BallInView& ball = balls.emplace_back();
+            ball.center = view_point(view, state.position);
+            ball.radius = scene.balls[i].radius;
+            const Mat3 world_from_ball = state.orientation.toRotationMatrix();
+            ball.ball_from_view = world_from_ball.transpose() * view_from_world.transpose();
+            ball.index = static_cast<int>(i);
+            ball.look = scene.balls[i].look;
+            ball.instant = static_cast<int>(k);
+        }
     }
     const auto power = [](const BallInView& b) {
         return b.center.squaredNorm() - b.radius * b.radius;

@@ -16,6 +16,7 @@ struct BallInView {
     Mat3 ball_from_view = Mat3::Identity();  ///< rotation into the ball's own axes
     int index = 0;                           ///< into Scene::balls
     int look = 0;                            ///< into Scene::looks
+    int instant = 0;  ///< balls of different instants cast no shadow on one another
 };
 
 /// A sphere's outline on the picture: an ellipse, pixels. There is none if the sphere reaches
@@ -32,6 +33,11 @@ Outline project_sphere(const Vec3& center, double radius, const View& view);
 /// disjoint spheres exactly (of two, the one with the smaller power of the eye is never behind).
 std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& motion,
                                  const View& view);
+
+/// The balls of several instants (increasing), in the same order; of two as near as each other the
+/// later one is in front. A ball that has not moved since is there once.
+std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scene& scene,
+                                 const Motion& motion, const View& view);
 
 /// False where no pixel can show it: behind the eye, beside the picture, or around the eye.
 bool may_be_seen(const BallInView& ball, const View& view);

@@ -38,7 +38,9 @@ std::optional<RulerStaff> place_ruler(const Scene& scene, const Motion& motion,
     const Box& balls = extent.ball_box();
     RulerStaff staff;
     staff.from_m = options.from;
-    const double height = extent.highest_bottom() - options.from;
+    staff.band = options.band;
+    double height = extent.highest_bottom() - options.from;
+    if (staff.band) height = std::max(height, (*staff.band)[1] - options.from);
     staff.to_m = options.from + rounded_up(height > 0 ? height : balls.sizes().z());
     if (options.to) staff.to_m = *options.to;
     if (options.at) {

@@ -1,6 +1,7 @@
 // Where the camera goes when the scene names none, and where the ruler stands.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/types.h"
@@ -16,6 +17,7 @@ struct RulerStaff {
     double from_m = 0;
     double to_m = 1;
     bool right_of_motion = false;  ///< on which side of the balls it stands, as the camera sees it
+    std::optional<std::array<double, 2>> band{};  ///< heights that it marks, m
 };
 
 /// The ruler that the scene asks for, or nothing. `right` is the camera's axis: without a place in

@@ -39,6 +39,15 @@ double time_inside(const Vec3& p, const Vec3& v, const Vec3& a, double duration,
     return first;
 }
 
+/// Of a parabola that leaves and arrives as the piece does. A curve turns by less than a radian,
+/// and leaves that parabola by about 1 % of its length.
+Vec3 mean_acceleration(const Piece& piece, double from, double to) {
+    if (!piece.curve || !(to > from)) return piece.acceleration;
+    const double h = to - from;
+    return (2 / (h * h)) *
+           (piece.position_at(to) - piece.position_at(from) - h * piece.velocity_at(from));
+}
+
 Box grown(const Box& box, double by) {
     return Box(box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by));
 }
@@ -93,7 +102,7 @@ MotionExtent::Sorted MotionExtent::sort_arcs(const Scene& scene, const Motion& m
             const double from = std::max(begin, pieces[k].start);
             if (from > end || (from == end && !last)) continue;
             const BallState state = pieces[k].at(from);
-            Arc arc{state.position, state.velocity,        pieces[k].acceleration,
+            Arc arc{state.position, state.velocity,        mean_acceleration(pieces[k], from, end),
                     end - from,     scene.balls[b].radius, static_cast<int>(b)};
             if (!arc.p.allFinite() || !arc.v.allFinite() || !arc.a.allFinite()) continue;
             const bool departs = from >= last_event[b];

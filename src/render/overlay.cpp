@@ -7,6 +7,7 @@
 #include "render/overlay_labels.h"
 #include "render/overlay_ruler.h"
 #include "render/overlay_trail.h"
+#include "render/overlay_verdict.h"
 
 namespace carom {
 
@@ -21,6 +22,11 @@ class OverlayPainter::Impl {
                            kOverlayFontFamily);
             obstacles_.push_back(clock_->rect());
         }
+        if (const auto verdict = judge_rebound(scene, motion)) {
+            verdict_.emplace(scene, motion, *verdict, view_.width_px(), view_.height_px(),
+                             obstacles_, kOverlayFontFamily);
+            obstacles_.push_back(verdict_->rect());
+        }
         if (wanted.labels && !scene.balls.empty())
             labels_.emplace(scene, motion, view_, kOverlayFontFamily);
         if (wanted.trail && !scene.balls.empty()) trails_.emplace(scene, motion, view_);
@@ -30,6 +36,7 @@ class OverlayPainter::Impl {
     std::optional<RulerLayout> ruler_;
     std::optional<OverlayClock> clock_;
     std::vector<Rect> obstacles_;
+    std::optional<OverlayVerdict> verdict_;
     std::optional<OverlayLabels> labels_;
     std::optional<OverlayTrails> trails_;
     const Image nothing_;
@@ -59,6 +66,7 @@ const Image& OverlayPainter::moving_under_layer() const {
 
 void OverlayPainter::draw_over(double t, Image& picture) const {
     if (impl_->clock_) impl_->clock_->draw(t, picture);
+    if (impl_->verdict_ && impl_->verdict_->shown_at(t)) impl_->verdict_->draw(picture);
     if (impl_->labels_) impl_->labels_->draw(t, impl_->obstacles_, picture);
 }
 

@@ -39,7 +39,7 @@ class OverlayPainter {
     Rect update_moving_under_layer(double t);
     const Image& moving_under_layer() const;
 
-    /// Clock and labels on the finished picture.
+    /// Clock, verdict and labels on the finished picture.
     void draw_over(double t, Image& picture) const;
 
   private:

@@ -118,6 +118,11 @@ std::optional<RulerLayout> lay_out_ruler(const RulerStaff& staff, const View& vi
     layout.low_px = staff_px(staff, view, heights->low);
     layout.high_px = staff_px(staff, view, heights->high);
     const double length_px = (layout.high_px - layout.low_px).norm();
+    if (staff.band) {
+        const double low = std::max((*staff.band)[0], heights->low);
+        const double high = std::min((*staff.band)[1], heights->high);
+        if (high > low) layout.band_px = {staff_px(staff, view, low), staff_px(staff, view, high)};
+    }
     constexpr double kShortest = 8;  // px; a shorter staff has no room for two ticks
     if (!(length_px > kShortest) || !std::isfinite(length_px)) return std::nullopt;
 
@@ -148,6 +153,33 @@ std::optional<RulerLayout> lay_out_ruler(const RulerStaff& staff, const View& vi
     return layout;
 }
 
+namespace {
+
+/// The marked part: a stripe from the staff's far edge to where the balls are.
+void draw_band(Canvas& canvas, const RulerLayout& layout, double away, double width, double unit) {
+    if (!layout.band_px) return;
+    constexpr double kTowardsBalls = 110;  // px at 720
+    const Vec2 low = (*layout.band_px)[0], high = (*layout.band_px)[1];
+    const double near = -away * kTowardsBalls * unit, far = away * width;
+    cairo_t* c = canvas.context();
+    cairo_move_to(c, low.x() + near, low.y());
+    cairo_line_to(c, low.x() + far, low.y());
+    cairo_line_to(c, high.x() + far, high.y());
+    cairo_line_to(c, high.x() + near, high.y());
+    cairo_close_path(c);
+    canvas.use({kGood.r, kGood.g, kGood.b, 0.30});
+    cairo_fill(c);
+    for (const Vec2& end : {low, high}) {
+        cairo_move_to(c, end.x() + near, end.y());
+        cairo_line_to(c, end.x() + far, end.y());
+    }
+    canvas.use({kGood.r, kGood.g, kGood.b, 0.9});
+    cairo_set_line_width(c, std::max(1.2 * unit, 1.0));
+    cairo_stroke(c);
+}
+
+}  // namespace
+
 Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font) {
     Image picture(view.width_px(), view.height_px());
     Canvas canvas(picture);
@@ -174,6 +206,8 @@ Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font) 
     canvas.use({kSlate.r, kSlate.g, kSlate.b, 0.9});
     band(-0.5 * line, 0.5 * line);
     cairo_fill(c);
+
+    draw_band(canvas, layout, away, width, unit);
 
     for (const RulerTick& tick : layout.ticks) {
         const bool major = tick.rank == TickRank::kMajor;

@@ -1,6 +1,7 @@
 // The ruler: a graduated staff that stands in the scene beside the motion.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct RulerLayout {
     RulerStaff staff;
     Vec2 low_px = Vec2::Zero();  ///< the lower end of the visible part
     Vec2 high_px = Vec2::Zero();
+    std::optional<std::array<Vec2, 2>> band_px;  ///< ends of the marked part that is visible
     double major_step_m = 1;
     std::vector<RulerTick> ticks;
 };

@@ -95,13 +95,15 @@ class Painter::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void paint(double t, Image& out) {
+    void paint(const std::vector<double>& instants, Image& out) {
+        CAROM_CHECK(instants.size(), >, std::size_t{0});
+        const double t = instants.back();
         const double begin = clock_.now_s();
         context_.make_current();
         if (out.width_px != width_px_ || out.height_px != height_px_)
             out = Image(width_px_, height_px_);
         copy_background();
-        const std::vector<BallInView> balls = balls_at(t, scene_, motion_, *view_);
+        const std::vector<BallInView> balls = balls_at(instants, scene_, motion_, *view_);
         if (shadows_) shadows_->draw(balls, *background_);
         if (moving_layer_) draw_moving_layer(t);
         balls_->draw(balls, *background_);
@@ -207,6 +209,7 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
     add("ruler", overlay.ruler.has_value(), "the scene asks for it", "not asked for");
     add("clock", overlay.clock.has_value(), "the scene asks for it", "not asked for");
     add("labels", overlay.labels.has_value(), "the scene asks for it", "not asked for");
+    add("verdict", scene_.test.has_value(), "the scene has a test", "the scene has no test");
     add("trail", moving_layer_.has_value(), "the scene asks for it", "not asked for");
     return result;
 }
@@ -217,7 +220,10 @@ Painter::~Painter() = default;
 Painter::Painter(Painter&&) noexcept = default;
 Painter& Painter::operator=(Painter&&) noexcept = default;
 
-void Painter::paint(double t, Image& out) { impl_->paint(t, out); }
+void Painter::paint(double t, Image& out) { impl_->paint({t}, out); }
+void Painter::paint_strobe(const std::vector<double>& instants, Image& out) {
+    impl_->paint(instants, out);
+}
 std::string Painter::renderer() const { return impl_->renderer(); }
 std::map<std::string, Painter::DrawnEffect> Painter::effects() const { return impl_->effects(); }
 double Painter::draw_cpu_s() const { return impl_->draw_cpu_s(); }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 #include "motion/motion.h"
@@ -28,6 +29,11 @@ class Painter {
 
     /// Draws the instant `t` [s of the motion] into `out`, which is resized if need be.
     void paint(double t, Image& out);
+
+    /// Draws the balls of all `instants` [s, increasing, at least one] into one picture, as under a
+    /// stroboscope: nearer ones in front, each with its own shadows. Clock, labels and trails are
+    /// those of the last instant.
+    void paint_strobe(const std::vector<double>& instants, Image& out);
 
     /// Renderer and version strings of the driver, for --stats and for failed goldens.
     std::string renderer() const;

@@ -25,7 +25,8 @@ std::size_t TrailCurve::steps_of_piece(std::size_t index) const {
     const BallState begin = piece.at(piece.start), end = piece.at(piece.start + length);
     // Depth and speed are convex or monotonic enough for their bounds to lie at the ends, except a
     // depth that turns in between: there the path dips by at most |a| length^2 / 8.
-    const double dip = piece.acceleration.norm() * length * length / 8;
+    const double acceleration = piece.largest_acceleration();
+    const double dip = acceleration * length * length / 8;
     const auto depth = [&](const Vec3& p) { return (p - view_->eye()).dot(view_->forward()); };
     const double far = std::max(depth(begin.position), depth(end.position));
     if (far + dip <= 0) return 1;
@@ -37,8 +38,7 @@ std::size_t TrailCurve::steps_of_piece(std::size_t index) const {
     const double slant = 1 + view_->tan_half_fov_y() * std::hypot(1, aspect);
     const double px_per_m = slant * view_->pixels_per_metre(near);
     // A chord over the time h leaves a parabola by |a| h^2 / 8.
-    const double curved =
-        length * std::sqrt(piece.acceleration.norm() * px_per_m / (8 * kChordError));
+    const double curved = length * std::sqrt(acceleration * px_per_m / (8 * kChordError));
     const double speed = std::max(begin.velocity.norm(), end.velocity.norm());
     const double steps = std::max(curved, speed * length * px_per_m / kLongestStep);
     constexpr double kMost = 4096;

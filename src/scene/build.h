@@ -46,6 +46,7 @@ void build_materials(Build& build);  // materials and pairs
 void build_looks(Build& build);
 void build_surfaces(Build& build);
 void build_balls(Build& build);
+void build_test(Build& build);
 void check_names(Build& build);     // unique over balls and surfaces
 void check_overlaps(Build& build);  // at the start
 void warn_of_half_friction(Build& build);

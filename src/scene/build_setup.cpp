@@ -22,9 +22,9 @@ std::optional<double> read_duration(const Fields& fields) {
 void warn_of_unread_keys(Build& build, const Fields& fields) {
     const Simulation& simulation = build.scene.simulation;
     const auto warn = [&](const char* key, const std::string& reader, const std::string& chosen) {
-        build.report.warning(*fields.find(key),
-                             fmt::format("'{}' is read by {} only, and this scene's is {}", key,
-                                         reader, chosen));
+        build.report.warning(
+            *fields.find(key),
+            fmt::format("'{}' is read by {} only, and this scene's is {}", key, reader, chosen));
     };
     const Simulation defaults;
     if (simulation.method == Method::kExact) {
@@ -185,6 +185,13 @@ RulerOptions read_ruler(Build& build, const Fields& fields) {
         build.report.error(*fields.find("to"),
                            fmt::format("the ruler's 'to' ({} m) must lie above its 'from' ({} m)",
                                        number_text(*ruler.to), number_text(ruler.from)));
+    if (const Node* band = fields.find("band")) {
+        const Vec2 bounds = fields.vec2("band");
+        ruler.band = {bounds[0], bounds[1]};
+        if (bounds[1] <= bounds[0])
+            build.report.error(*band,
+                               "the ruler's 'band' must be a lower and then a higher height");
+    }
     return ruler;
 }
 

@@ -31,6 +31,7 @@ enum class Section {
     kCamera,
     kFilm,
     kOverlay,
+    kTest,
     kRuler,
     kClock,
     kTrail,

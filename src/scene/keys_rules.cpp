@@ -47,6 +47,9 @@ std::vector<SectionDoc> section_docs() {
         {kFilm, "film", "film",
          "Size and timing of the film; frame n shows start + speed n / fps."},
         {kOverlay, "overlay", "overlay", "Each is `false`, `true`, or a mapping with options."},
+        {kTest, "test", "test",
+         "The rule of a drop test. Whether the ball passes is printed by the commands, written by "
+         "--stats, and drawn in the last two seconds of the film."},
         {kRuler, "ruler", "overlay.ruler", "A vertical scale in metres."},
         {kClock, "clock", "overlay.clock", "The time of the motion in seconds."},
         {kTrail, "trail", "overlay.trail", "The path of each ball's centre."},

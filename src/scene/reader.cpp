@@ -33,6 +33,7 @@ void build_scene(Build& build) {
     build_looks(build);
     build_surfaces(build);
     build_balls(build);
+    build_test(build);
     check_names(build);
     check_overlaps(build);
     warn_of_half_friction(build);

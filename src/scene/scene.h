@@ -152,6 +152,7 @@ struct RulerOptions {
     std::optional<Vec2> at;
     double from = 0;           ///< m
     std::optional<double> to;  ///< m; default: the next metre or half metre above the motion
+    std::optional<std::array<double, 2>> band;  ///< heights between which it is marked, m
 };
 struct ClockOptions {
     Corner corner = Corner::kTopLeft;
@@ -173,6 +174,15 @@ struct Overlay {
     std::optional<LabelOptions> labels;
 };
 
+/// The rule of a drop test: how high the first rebound of a ball must come. Heights are over what
+/// it rebounds from, as the ball's peaks are.
+struct ReboundTest {
+    int ball = 0;  ///< index into Scene::balls
+    double low_m = 0, high_m = 0;
+    bool to_top = false;  ///< measured to the ball's top; else to its bottom
+    std::string rule;     ///< whose rule it is; may be empty
+};
+
 struct Scene {
     std::string file;  ///< as the user named it, for messages
     std::string title;
@@ -185,6 +195,7 @@ struct Scene {
     std::optional<Camera> camera;  ///< empty: framed around the motion
     Film film;
     Overlay overlay;
+    std::optional<ReboundTest> test;
 };
 
 }  // namespace carom

@@ -125,6 +125,7 @@ void Cluster::touch_balls(int ball) {
     const double radius = world_.body(ball).radius;
     world_.for_each_touching(ball, x, [&](int other) {
         if (has(other) && index_of(other) < place) return;  // looked at from the other side
+        if (world_.ball(other).crowded) return;             // met by steps of its own
         // Far pairs are the common case: a little more than the sum of the radii excludes them.
         const double reach = 1.001 * (radius + world_.body(other).radius);
         const Vec3 y = world_.position(other, time_);
@@ -170,7 +171,8 @@ void Cluster::choose(double slowest) {
     }
 }
 
-void Cluster::solve(ImpactSolver& solver, bool inelastic, std::vector<Contact>& impacts) {
+void Cluster::solve(ImpactSolver& solver, bool inelastic, double enough,
+                    std::vector<Contact>& impacts) {
     if (inelastic)
         for (Contact& c : solver_contacts_) c.restitution = 0;
     solver.solve(solver_bodies_, solver_contacts_, time_);
@@ -178,14 +180,29 @@ void Cluster::solve(ImpactSolver& solver, bool inelastic, std::vector<Contact>& 
         bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
         Contact solved = solver_contacts_[k];
-        solved.ball = contacts_[chosen_[k]].ball;
-        solved.other = contacts_[chosen_[k]].other;
-        solved.impact = solved.approach_speed > 0;
-        if (solved.impact) impacts.push_back(solved);
+        if (int& entry = impact_of_[chosen_[k]]; entry >= 0) {
+            Contact& impact = impacts[static_cast<std::size_t>(entry)];
+            impact.impulse += solved.impulse;
+            impact.tangential_impulse += solved.tangential_impulse;
+        } else if (solved.approach_speed > enough) {
+            entry = static_cast<int>(impacts.size());
+            solved.ball = contacts_[chosen_[k]].ball;
+            solved.other = contacts_[chosen_[k]].other;
+            solved.impact = true;
+            impacts.push_back(solved);
+        }
     }
 }
 
+void Cluster::end_impacts(std::vector<Contact>& impacts) const {
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+        if (const int entry = impact_of_[i]; entry >= 0)
+            impacts[static_cast<std::size_t>(entry)].separation_speed =
+                std::max(-approach(contacts_[i]), 0.0);
+}
+
 void Cluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits) {
+    impact_of_.assign(contacts_.size(), -1);
     for (std::size_t round = 0;; ++round) {
         speeds_.clear();
         for (const Contact& c : contacts_) speeds_.push_back(approach(c));
@@ -193,16 +210,17 @@ void Cluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts, const
         if (round == 0) first_approach_ = largest;
         const double enough =
             std::max({kResolved * first_approach_, kRounding * largest_speed_, limits.enough});
-        if (!(largest > enough)) return;
+        if (!(largest > enough)) break;
         const bool last = round > limits.rounds + contacts_.size();
         if (last && limits.enough > 0) {
             press_together();
-            return;
+            break;
         }
         choose(last ? -std::numeric_limits<double>::infinity() : largest * (1 - kEqual));
-        solve(solver, last, impacts);
-        if (last) return;
+        solve(solver, last, enough, impacts);
+        if (last) break;
     }
+    end_impacts(impacts);
 }
 
 void Cluster::contacts_of(int ball, std::vector<Contact>& result) const {

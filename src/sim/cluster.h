@@ -56,7 +56,8 @@ class Cluster {
         std::size_t rounds = 2000;  ///< before what is left is solved as one inelastic contact
     };
 
-    /// Solves until nothing approaches any more. `impacts` gets one entry per pair and impact.
+    /// Solves until nothing approaches any more. `impacts` gets one entry per pair that met: how
+    /// fast it came at first, how fast it leaves in the end, and all its impulses together.
     void resolve(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits);
     std::size_t contact_count() const { return contacts_.size(); }
 
@@ -81,7 +82,8 @@ class Cluster {
     void touch_balls(int ball);
     double approach(const Contact& contact) const;
     void choose(double slowest);
-    void solve(ImpactSolver& solver, bool inelastic, std::vector<Contact>& impacts);
+    void solve(ImpactSolver& solver, bool inelastic, double enough, std::vector<Contact>& impacts);
+    void end_impacts(std::vector<Contact>& impacts) const;
 
     ExactWorld& world_;
     double time_ = 0;
@@ -93,6 +95,7 @@ class Cluster {
     double first_approach_ = 0;
     double largest_speed_ = 0;
 
+    std::vector<int> impact_of_;  ///< per contact: its entry among the impacts, or -1
     // Of one round: what the solver gets, and which contact each entry was.
     std::vector<double> speeds_;
     std::vector<std::size_t> chosen_;

@@ -32,6 +32,7 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
     : world_(scene),
       end_(end),
       links_(scene.balls.size()),
+      crowd_(world_),
       next_(scene.balls.size()),
       meeting_(meeting_of(scene, world_.pairs, end)),
       cluster_(world_),
@@ -64,19 +65,31 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
                    bool until_rest) {
     double last = -1;
     int at_one_instant = 0;
-    for (std::int64_t events = 0; !queue_.empty(); ++events) {
-        const Prediction next = queue_.top();
+    for (std::int64_t events = 0; !queue_.empty() || next_step_ <= end_; ++events) {
+        Prediction next;
+        if (!queue_.empty()) next = queue_.top();
+        const bool step = queue_.empty() || next_step_ <= next.time;
+        if (step) {
+            next.time = next_step_;
+            next.ball = crowd_.awake().empty() ? 0 : crowd_.awake().front();
+        }
         if (next.time > end_) break;
-        queue_.pop();
-        if (!current(next)) continue;
+        if (!step) {
+            queue_.pop();
+            if (!current(next)) continue;
+        }
         at_one_instant = next.time > last ? 0 : at_one_instant + 1;
         if (at_one_instant > kMostAtOneInstant)
             refuse("more events at one instant than can be resolved", next.ball, next.partner,
                    next.time);
         last = std::max(last, next.time);
 
-        take_together(next);
-        happen(next.time);
+        if (step) {
+            step_crowd(next.time);
+        } else {
+            take_together(next);
+            happen(next.time);
+        }
         fit_grid(next.time);
         if (until_rest && all_at_rest()) {
             end_ = next.time;
@@ -150,6 +163,9 @@ void ExactRun::happen(double now) {
                 end_phase(p.ball, now);
         } else if (!p.partner.is_surface && world_.ball(p.partner.index).stamp != p.partner_stamp) {
             predict(p.ball, now);  // the partner has moved on since
+        } else if (meets_crowd(p)) {
+            crowd_.want(world_.ball(p.ball).crowded ? p.partner.index : p.ball);
+            next_step_ = now;
         } else {
             seeds_.add(contact_met(p, now));
         }
@@ -168,7 +184,9 @@ void ExactRun::happen(double now) {
 /// g times that digit is much against its speed.
 Contact ExactRun::contact_met(const Prediction& p, double now) {
     ExactBall& b = world_.ball(p.ball);
-    if (p.partner.is_surface && !b.stepped) {
+    put_on_surface(p.ball, now);
+    if (!p.partner.is_surface) put_on_surface(p.partner.index, now);
+    if (p.partner.is_surface && !b.stepped && !b.piece.curve) {
         const double lost = p.seconds - (now - b.piece.start);
         b.piece.position += lost * world_.velocities(p.ball, now).linear;
         b.piece.velocity += lost * b.piece.acceleration;
@@ -195,7 +213,10 @@ void ExactRun::resolve(const Contact& seed, double now) {
         world_.ball(ball).rounding_speed = cluster_.rounding_speed();
     }
     settle_cluster(cluster_, now);
-    for (const int ball : cluster_.balls()) predict(ball, now);
+    for (const int ball : cluster_.balls()) {
+        note_impact(ball, now);
+        predict(ball, now);
+    }
 }
 
 void ExactRun::write_impacts(const std::vector<Contact>& impacts, double now) {
@@ -240,18 +261,13 @@ void ExactRun::end_phase(int ball, double now) {
         predict(ball, now);
         return;
     }
-    const BallState state = world_.state(ball, now);
-    const Contact contact = world_.contact_at(ball, {true, b.surface}, now);
-    if (b.leaves_at_end && !departs_at_edge(ball, now)) {
-        join(ball, now, {state.velocity, state.spin});
-    } else if (b.leaves_at_end) {
-        row(now, EventKind::kLeave, ball);
-        fly(ball, now, {state.velocity, state.spin});
-    } else if (const Velocities v{state.velocity, state.spin}; can_hold(ball, now, contact, v)) {
-        hold(ball, now, contact, v, 0, false);
-    } else {
-        join(ball, now, v);
-    }
+    const Velocities velocities = world_.velocities(ball, now);
+    if (b.piece.curve)
+        end_curved(ball, now);
+    else if (const Contact c = world_.contact_at(ball, {true, b.surface}, now); b.leaves_at_end)
+        follow(ball, now, c, velocities, 0, false);
+    else
+        stay(ball, now, c, velocities, 0, false);
     predict(ball, now);
 }
 

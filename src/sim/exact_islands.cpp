@@ -20,12 +20,22 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCalmFraction = 1e-3;
 constexpr double kCalmSeconds = 20 * kIslandStep;
 
+/// It rests as well when none has been faster than this for so long: gravity does less than 1e-4 g.
+constexpr double kSlowFraction = 2e-2;
+constexpr double kSlowSeconds = 200 * kIslandStep;
+
 /// Steps that end within so many roundings of the time end together.
 constexpr double kSameInstant = 16 * std::numeric_limits<double>::epsilon();
 
 /// Links that one impact can pass through at once, by Newton's law. What is left beyond them is
 /// solved by the next step, without rebound.
 constexpr std::size_t kMostLinked = 40;
+
+/// An island of so many balls is a crowd, and so is a smaller one that does not come to rest in so
+/// many steps: in a crowd one ball that rolls on does not keep the others awake.
+constexpr std::size_t kCrowd = 24;
+constexpr std::size_t kSmallCrowd = 4;
+constexpr int kRestlessSteps = 1000;
 
 /// Rounds per contact of a cluster in an island.
 constexpr std::size_t kLinkedRounds = 2;
@@ -69,7 +79,7 @@ void ExactRun::join(int ball, double now, const Velocities& velocities) {
     b.surface = -1;
     b.stepped = true;
     b.asleep = false;
-    b.steps = b.calm_steps = 0;
+    b.steps = b.calm_steps = b.slow_steps = 0;
     b.row_due = kInfinity;
     b.phase_end = now;
     begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
@@ -117,11 +127,12 @@ void ExactRun::settle_cluster(const Cluster& cluster, double now) {
     const bool stepped = in_island(cluster);
     for (const int ball : cluster.balls()) {
         const Velocities& velocities = cluster.body(ball).velocities;
-        if (stepped)
+        if (stepped) {
             join(ball, now, velocities);
-        else
-            settle(ball, now, velocities, cluster.contacts_of(ball), cluster.first_approach(),
-                   false);
+            continue;
+        }
+        cluster.contacts_of(ball, contacts_);
+        settle(ball, now, velocities, contacts_, cluster.first_approach(), false);
     }
 }
 
@@ -135,13 +146,25 @@ void ExactRun::step_islands(const std::vector<int>& balls, double now) {
             due.push_back(ball);  // the others have taken their step with an island already
     const std::vector<int> set = link_neighbours(due, now);
     for (const std::vector<int>& island : islands_of(set, links_)) {
+        if (is_crowd(island)) {
+            for (const int ball : island) want_in_crowd(ball, now);
+            next_step_ = now;
+            continue;
+        }
         if (island.size() == 1 && leave_island(island.front(), now)) continue;
         step_island(island, now);
     }
     for (const int ball : set) predict(ball, now);
 }
 
-/// A ball that is alone, or has just one contact with a closed form, needs no steps.
+bool ExactRun::is_crowd(const std::vector<int>& island) const {
+    if (island.size() < kSmallCrowd) return false;
+    return island.size() >= kCrowd || std::any_of(island.begin(), island.end(), [this](int ball) {
+               return world_.ball(ball).steps >= kRestlessSteps;
+           });
+}
+
+/// A ball that is alone, or has just one contact, with a surface, needs no steps.
 bool ExactRun::leave_island(int ball, double now) {
     std::vector<Link>& links = links_.of(ball);
     const BallState at = world_.state(ball, now);
@@ -150,7 +173,7 @@ bool ExactRun::leave_island(int ball, double now) {
         fly(ball, now, velocities);
         return true;
     }
-    // It joined because there was no closed form: it takes a step before that is tried again.
+    // It joined because it met something: it takes a step before it is looked at alone.
     if (links.size() > 1 || world_.ball(ball).steps == 0) return false;
     const Link link = links.front();
     const Contact contact = world_.contact_at(ball, link.partner, now);
@@ -161,13 +184,12 @@ bool ExactRun::leave_island(int ball, double now) {
         fly(ball, now, velocities);
         return true;
     }
-    if (!can_hold(ball, now, contact, velocities)) return false;
     if (link.stated != EventKind::kLeave) {
         world_.ball(ball).surface = link.partner.index;
         world_.ball(ball).kind = link.stated;
     }
     links.clear();
-    hold(ball, now, contact, velocities, 0, link.from_start);
+    stay(ball, now, contact, velocities, 0, link.from_start);
     return true;
 }
 
@@ -179,12 +201,15 @@ void ExactRun::step_island(const std::vector<int>& balls, double now) {
 
     const double calm_speed = kCalmFraction * world_.scene.simulation.gravity.norm() * kIslandStep;
     const bool calm = step.is_calm(calm_speed);
-    bool asleep = calm;
+    const bool slow = calm || step.is_calm(kSlowFraction / kCalmFraction * calm_speed);
+    bool asleep = slow;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         ExactBall& b = world_.ball(balls[i]);
         const IslandStep::Result& r = step.result(i);
         b.calm_steps = calm ? b.calm_steps + 1 : 0;
-        asleep = asleep && b.calm_steps * step.seconds() >= kCalmSeconds;
+        b.slow_steps = slow ? b.slow_steps + 1 : 0;
+        asleep = asleep && (b.calm_steps * step.seconds() >= kCalmSeconds ||
+                            b.slow_steps * step.seconds() >= kSlowSeconds);
         ++b.steps;
         b.phase_end = now + step.seconds();
         b.stepped = true;
@@ -198,7 +223,8 @@ void ExactRun::step_island(const std::vector<int>& balls, double now) {
             note_link(link, c, calm, calm_speed, now);
         }
     }
-    if (asleep) fall_asleep(balls, now, calm_speed);
+    if (asleep)
+        fall_asleep(balls, now, calm ? calm_speed : kSlowFraction / kCalmFraction * calm_speed);
 }
 
 /// The balls stop exactly where they are; spins about the normals of their contacts go on.

@@ -70,6 +70,7 @@ void ExactRun::link_near(int ball, double now, const std::vector<Link>& before) 
     for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) offer({true, s});
     const Vec3 x = world_.position(ball, now);
     world_.for_each_near(ball, [&](int other) {
+        if (world_.ball(other).crowded) return;
         const double reach =
             (1 + kLinkGap) * (world_.body(ball).radius + world_.body(other).radius);
         if ((world_.position(other, now) - x).squaredNorm() < reach * reach) offer({false, other});

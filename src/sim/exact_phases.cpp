@@ -58,18 +58,18 @@ FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& conta
             world.scene.simulation.gravity};
 }
 
-/// A slip is none if it is rounding of the velocities, or ends within the rounding of the time.
-double slip_tolerance(const ExactWorld& world, int ball, double now, const Velocities& velocities) {
-    const double time_rounding = 8 * std::numeric_limits<double>::epsilon() * now;
-    return kStillFraction *
-               (velocities.linear.norm() + world.body(ball).radius * velocities.spin.norm()) +
-           time_rounding * world.scene.simulation.gravity.norm();
-}
-
 }  // namespace
 
 // ---- What a ball does next
 // -----------------------------------------------------------------------
+
+/// A slip is none if it is rounding of the velocities, or ends within the rounding of the time.
+double ExactRun::slip_tolerance(int ball, double now, const Velocities& velocities) const {
+    const double time_rounding = 8 * std::numeric_limits<double>::epsilon() * now;
+    return kStillFraction *
+               (velocities.linear.norm() + world_.body(ball).radius * velocities.spin.norm()) +
+           time_rounding * world_.scene.simulation.gravity.norm();
+}
 
 double ExactRun::hop_limit(int ball, const Vec3& position) const {
     return kLastHop * std::max(world_.body(ball).radius, position.cwiseAbs().maxCoeff());
@@ -105,10 +105,7 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
         tail = this_tail;
     }
     if (lasting != nullptr) {
-        if (can_hold(ball, now, *lasting, velocities))
-            hold(ball, now, *lasting, velocities, tail, at_start);
-        else
-            join(ball, now, velocities);
+        stay(ball, now, *lasting, velocities, tail, at_start);
         return;
     }
     if (world_.ball(ball).surface >= 0) row(now, EventKind::kLeave, ball);
@@ -116,9 +113,10 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
 }
 
 void ExactRun::begin_piece(int ball, double now, const BallState& at, const Vec3& a,
-                           const Vec3& spin_rate) {
+                           const Vec3& spin_rate, OptionalCurve curve) {
     ExactBall& b = world_.ball(ball);
-    b.piece = {now, at.position, at.velocity, a, at.orientation, at.spin, spin_rate};
+    b.piece = {now,     at.position, at.velocity,     a, at.orientation,
+               at.spin, spin_rate,   std::move(curve)};
     b.stamp = next_stamp_++;
     if (!at.position.allFinite() || !at.velocity.allFinite() || !at.spin.allFinite())
         throw Failure(FailureKind::kRun, fmt::format("the state of ball {} is not finite at {} s",
@@ -143,16 +141,15 @@ bool ExactRun::can_hold(int ball, double now, const Contact& contact,
     return contact.other.is_surface &&
            is_flat(world_.surface(contact.other.index).shape, contact.normal) &&
            flat_motion(flat_contact(world_, ball, contact), velocities,
-                       slip_tolerance(world_, ball, now, velocities))
+                       slip_tolerance(ball, now, velocities))
                .has_value();
 }
 
 /// Only where can_hold().
 void ExactRun::hold(int ball, double now, const Contact& contact, const Velocities& velocities,
                     double tail, bool at_start) {
-    const std::optional<FlatMotion> motion =
-        flat_motion(flat_contact(world_, ball, contact), velocities,
-                    slip_tolerance(world_, ball, now, velocities));
+    const std::optional<FlatMotion> motion = flat_motion(
+        flat_contact(world_, ball, contact), velocities, slip_tolerance(ball, now, velocities));
     CAROM_CHECK(motion.has_value(), ==, true);
 
     ExactBall& b = world_.ball(ball);
@@ -160,33 +157,29 @@ void ExactRun::hold(int ball, double now, const Contact& contact, const Velociti
     at.position += contact.depth * contact.normal;  // what rounding left of the gap
     at.velocity = motion->velocities.linear;
     at.spin = motion->velocities.spin;
-    const bool same = b.surface == contact.other.index && b.kind == motion->kind;
-    const bool due = b.row_due < kInfinity;
-    b.surface = contact.other.index;
-    b.kind = motion->kind;
-    b.normal = contact.normal;
-    b.stepped = b.asleep = false;
+    begin_contact(ball, now, contact.other, contact.normal, motion->kind, tail, at_start);
     begin_piece(ball, now, at, motion->acceleration, motion->spin_rate);
 
     const double on_face = seconds_on_face(b.piece, world_.surface(contact.other.index).shape,
                                            contact.normal, end_ - now);
     b.leaves_at_end = on_face < motion->seconds;
     b.phase_end = now + std::min(on_face, motion->seconds);
-    // A change of kind is a row; that of a contact that begins waits for the end of its bounces.
-    if (due) return;
-    b.row_due = kInfinity;
-    if (at_start || same) return;
+}
+
+/// A change of kind is a row; that of a contact that begins waits for the end of its bounces.
+void ExactRun::begin_contact(int ball, double now, const Partner& surface, const Vec3& normal,
+                             EventKind kind, double tail, bool at_start) {
+    ExactBall& b = world_.ball(ball);
+    const bool same = b.surface == surface.index && b.kind == kind;
+    b.surface = surface.index;
+    b.kind = kind;
+    b.normal = normal;
+    b.stepped = b.asleep = false;
+    if (b.row_due < kInfinity || at_start || same) return;
     if (tail > 0)
         b.row_due = now + tail;
     else
-        row(now, b.kind, ball);
-}
-
-/// At the end of a face the ball leaves at once if the edge cannot bend its path: v^2 >= g_n R.
-bool ExactRun::departs_at_edge(int ball, double time) const {
-    const double v = world_.state(ball, time).velocity.norm();
-    const double g_n = -world_.scene.simulation.gravity.dot(world_.ball(ball).normal);
-    return v * v >= g_n * world_.body(ball).radius;
+        row(now, kind, ball);
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/curved_impact.h"
 #include "sim/exact_run.h"
 #include "sim/island_step.h"
 #include "sim/time_of_impact.h"
@@ -36,6 +37,20 @@ bool comes_first(const Partner& a, const Partner& b) {
     return a.index < b.index;
 }
 
+/// Two balls, one of them at least on a curved piece, which ends with its phase. As far as that is
+/// known, whatever comes before: the answer's last digits must not depend on who else was asked.
+TimeOfImpact impact_of_curved(const ExactBall& a, const ExactBall& b, double sum, bool touching,
+                              double from) {
+    double until = std::numeric_limits<double>::infinity();
+    if (a.piece.curve) until = std::min(until, a.phase_end);
+    if (b.piece.curve) until = std::min(until, b.phase_end);
+    if (!(until > from)) return {};
+    const double seconds = until - from;
+    return curved_impact_with_sphere(
+        curved_path(a.piece, from, seconds).relative_to(curved_path(b.piece, from, seconds)), sum,
+        touching);
+}
+
 bool is_stepped(const ExactBall& b) { return b.stepped || b.asleep; }
 
 }  // namespace
@@ -45,10 +60,11 @@ bool is_stepped(const ExactBall& b) { return b.stepped || b.asleep; }
 
 void ExactRun::predict(int ball, double now) {
     const ExactBall& b = world_.ball(ball);
+    if (b.crowded && !b.asleep) return;
     Prediction& next = next_[static_cast<std::size_t>(ball)];
     next = {std::min(b.phase_end, b.row_due), ball, b.stamp, PredictionKind::kPhase, {}, 0, 0};
     for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s)
-        if (s != b.surface) consider_surface(ball, s, now);
+        if (s != b.surface && !b.crowded) consider_surface(ball, s, now);
     if (world_.grid && world_.grid->in_cell(ball)) {
         const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
         if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
@@ -66,8 +82,16 @@ void ExactRun::enqueue(int ball, double now) {
         const NeighbourGrid::Cell& cell = world_.grid->cell_of(ball);
         double seconds = std::min(event.time, end_) - now;
         const double until = seconds;
+        const Piece& piece = world_.ball(ball).piece;
         for (int i = 0; i < 3; ++i) {
             const auto low = static_cast<double>(cell[static_cast<std::size_t>(i)]) * size;
+            if (piece.curve) {
+                const CurvedPath curved = curved_path(piece, now, std::max(seconds, 0.0));
+                seconds = seconds_above(curved, Vec3::Unit(i), low - margin);
+                seconds = std::min(seconds,
+                                   seconds_above(curved, -Vec3::Unit(i), -(low + size + margin)));
+                continue;
+            }
             seconds = seconds_inside(path.position[i], path.velocity[i], path.acceleration[i],
                                      low - margin, low + size + margin, seconds);
         }
@@ -109,14 +133,15 @@ void ExactRun::fit_grid(double now) {
         ++events_of_grid_ < kEventsPerGrid * static_cast<std::int64_t>(world_.balls.size()))
         return;
     events_of_grid_ = 0;
-    const double old_size = world_.grid->cell_size();
-    NeighbourGrid old = std::move(*world_.grid);
-    world_.build_grid(now);
-    const double ratio = world_.grid->cell_size() / old_size;
-    if (ratio < kMisfit && ratio > 1 / kMisfit) {
-        *world_.grid = std::move(old);
-        return;
+    Vec3 low = world_.position(0, now), high = low;
+    for (int i = 1; i < static_cast<int>(world_.balls.size()); ++i) {
+        const Vec3 x = world_.position(i, now);
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
     }
+    const double ratio = world_.grid->cell_size_for(low, high) / world_.grid->cell_size();
+    if (ratio < kMisfit && ratio > 1 / kMisfit) return;
+    world_.build_grid(now);
     for (ExactBall& b : world_.balls) b.stamp = next_stamp_++;
     for (int i = 0; i < static_cast<int>(world_.balls.size()); ++i) predict(i, now);
 }
@@ -145,7 +170,11 @@ void ExactRun::consider_surface(int ball, int surface, double now) {
     const double still = kStillFraction * path.velocity.norm() + world_.ball(ball).rounding_speed;
     TimeOfImpact toi{ImpactState::kHit, 0};
     if (!touching || -separation <= still)
-        toi = impact_with_surface(path, radius, shape, touching, until - from);
+        toi = world_.ball(ball).piece.curve
+                  ? curved_impact_with_surface(curved_path(world_.ball(ball).piece, from,
+                                                           world_.ball(ball).phase_end - from),
+                                               radius, shape, touching)
+                  : impact_with_surface(path, radius, shape, touching, until - from);
     accept(partner, ball, toi, touching, separation, from, now);
 }
 
@@ -153,10 +182,15 @@ void ExactRun::consider_ball(int ball, int other, double now) {
     const Partner partner{false, other};
     const ExactBall& a = world_.ball(ball);
     const ExactBall& b = world_.ball(other);
-    const double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
+    double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
+    // The steps of a crowd see what is near. What is sent its way between two of them is caught at
+    // once, and so is what meets a sleeper.
+    const bool crowd = a.crowded || b.crowded;
+    if (a.crowded && b.crowded) return;
+    if (crowd && !(a.crowded ? a : b).asleep) until = std::min(until, next_step_);
     if (until <= now) return;
     // What ODE steps is known to the gap that makes a link.
-    const bool stepped = is_stepped(a) || is_stepped(b);
+    const bool stepped = !crowd && (is_stepped(a) || is_stepped(b));
     if (stepped && (links_.linked(ball, partner) || joins_island(partner, ball, now))) return;
     const double from = stepped ? now : std::max(a.piece.start, b.piece.start);
     const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
@@ -168,15 +202,17 @@ void ExactRun::consider_ball(int ball, int other, double now) {
     const bool touching =
         stepped ? in_reach(world_.contact_at(ball, partner, now)) : distance2 <= reach * reach;
     // The common case: both in flight, and apart.
-    if (!touching && closing >= 0 && path.acceleration.isZero(0)) return;
+    const bool curved = a.piece.curve || b.piece.curve;
+    if (!touching && closing >= 0 && path.acceleration.isZero(0) && !curved) return;
     double separation = 0;
     TimeOfImpact toi{ImpactState::kHit, 0};
     if (touching) separation = closing / std::sqrt(distance2);
     const double still = kStillFraction * (path_a.velocity.norm() + path_b.velocity.norm()) +
                          a.rounding_speed + b.rounding_speed;
-    if (!touching || -separation <= still)
-        toi = impact_with_sphere(path, sum, touching, until - from);
-    accept(partner, ball, toi, touching, separation, from, now);
+    if (!touching || (-separation <= still && !crowd))
+        toi = curved ? impact_of_curved(a, b, sum, touching, from)
+                     : impact_with_sphere(path, sum, touching, until - from);
+    accept(partner, ball, toi, touching && !crowd, separation, from, now);
 }
 
 /// Whether something that ODE steps is near and slow enough for a lasting contact: then the ball's

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <queue>
 #include <stop_token>
 #include <string>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "sim/cluster.h"
+#include "sim/crowd.h"
+#include "sim/curved_phase.h"
 #include "sim/exact.h"
 #include "sim/exact_meeting.h"
 #include "sim/exact_world.h"
@@ -71,9 +74,24 @@ class ExactRun {
     void hold(int ball, double now, const Contact& contact, const Velocities& velocities,
               double tail, bool at_start);
     void fly(int ball, double now, const Velocities& velocities);
+    void begin_contact(int ball, double now, const Partner& surface, const Vec3& normal,
+                       EventKind kind, double tail, bool at_start);
     void begin_piece(int ball, double now, const BallState& at, const Vec3& a,
-                     const Vec3& spin_rate);
+                     const Vec3& spin_rate, OptionalCurve curve = {});
     void end_phase(int ball, double now);
+    double slip_tolerance(int ball, double now, const Velocities& velocities) const;
+
+    // One contact without a closed form: exact_curved.cpp.
+    void stay(int ball, double now, const Contact& contact, const Velocities& velocities,
+              double tail, bool at_start);
+    void follow(int ball, double now, const Contact& contact, const Velocities& velocities,
+                double tail, bool at_start);
+    CurvedForces choose_mode(CurvedPhase& phase, double tolerance) const;
+    void lift_off(int ball, double now, const Vec3& normal);
+    void advance(int ball, double now);
+    void end_curved(int ball, double now);
+    void put_at(int ball, double now, const Vec3& x);
+    void put_on_surface(int ball, double now);
 
     // Islands of lasting contacts that ODE steps: exact_islands.cpp and exact_links.cpp.
     void join(int ball, double now, const Velocities& velocities);
@@ -83,6 +101,7 @@ class ExactRun {
     Cluster::Limits limits_of(const Cluster& cluster) const;
     void settle_cluster(const Cluster& cluster, double now);
     void step_islands(const std::vector<int>& balls, double now);
+    bool is_crowd(const std::vector<int>& island) const;
     void step_island(const std::vector<int>& balls, double now);
     bool leave_island(int ball, double now);
     void fall_asleep(const std::vector<int>& balls, double now, double calm_speed);
@@ -93,8 +112,21 @@ class ExactRun {
     void note_link(Link& link, const Contact& contact, bool calm, double calm_speed, double now);
     void note_departures(int ball, const std::vector<Link>& before, double now);
     void row_of(const Contact& contact, EventKind kind, double now);
+
+    // Crowds: exact_crowd.cpp.
+    bool meets_crowd(const Prediction& p) const;
+    void note_impact(int ball, double now);
+    bool stand_together(int ball, double now);
+    void want_in_crowd(int ball, double now);
+    void enter_crowd(int ball, double now);
+    void step_crowd(double now);
+    void move_with_crowd(int ball, double now);
+    void leave_crowd(int ball, double now);
+    bool leaves_crowd_alone(int ball, double now, const Velocities& velocities);
+    void state_pair(CrowdPair& pair, double now);
+    Event event_of(const CrowdPair& pair, EventKind kind, double now) const;
+
     bool can_hold(int ball, double now, const Contact& contact, const Velocities& velocities) const;
-    bool departs_at_edge(int ball, double time) const;
     void row(double now, EventKind kind, int ball);
     void write_impacts(const std::vector<Contact>& impacts, double now);
     double hop_limit(int ball, const Vec3& position) const;
@@ -108,11 +140,14 @@ class ExactRun {
     ImpactSolver solver_;
     IslandSolver island_solver_;
     Links links_;
+    Crowd crowd_;
+    double next_step_ = std::numeric_limits<double>::infinity();  ///< of the crowd, s
     std::priority_queue<Prediction, std::vector<Prediction>, Later> queue_;
     Motion motion_;
     SimulationReport report_;
     std::uint64_t next_stamp_ = 1;
-    std::vector<Prediction> next_;  ///< per ball, without the change of its cell
+    std::map<int, CurvedPhase> curved_;  ///< by ball
+    std::vector<Prediction> next_;       ///< per ball, without the change of its cell
     std::int64_t events_of_grid_ = 0;
     Meeting meeting_;
     std::size_t awake_ = 0;  ///< a ball that was not at rest when last looked at
@@ -123,6 +158,7 @@ class ExactRun {
     std::vector<Prediction> together_;
     std::vector<Contact> impacts_;
     std::vector<Contact> contacts_;
+    std::vector<int> taken_;               ///< by the crowd
     std::vector<int> stepped_;             ///< balls whose island is due
     std::vector<std::uint64_t> resolved_;  ///< per ball, the last instant that resolved it
     std::uint64_t instant_ = 0;

@@ -49,21 +49,17 @@ void ExactWorld::build_grid(double t) {
 }
 
 Vec3 ExactWorld::position(int i, double t) const {
-    const Piece& p = ball(i).piece;
-    const double s = t - p.start;
-    return p.position + s * (p.velocity + (0.5 * s) * p.acceleration);
+    return ball(i).piece.position_at(t);
 }
 
 Velocities ExactWorld::velocities(int i, double t) const {
     const Piece& p = ball(i).piece;
-    const double s = t - p.start;
-    return {p.velocity + s * p.acceleration, p.spin + s * p.spin_rate};
+    return {p.velocity_at(t), p.spin_at(t)};
 }
 
 Path ExactWorld::path(int i, double t) const {
     const Piece& p = ball(i).piece;
-    const double s = t - p.start;
-    return {position(i, t), p.velocity + s * p.acceleration, p.acceleration};
+    return {p.position_at(t), p.velocity_at(t), p.acceleration_at(t)};
 }
 
 std::string ExactWorld::name(const Partner& partner) const {

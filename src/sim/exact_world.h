@@ -27,8 +27,12 @@ struct ExactBall {
     bool leaves_at_end = false;  ///< the phase ends because the face does
     bool stepped = false;        ///< in an island that ODE steps; phase_end is the step's end
     bool asleep = false;         ///< in such an island, which rests until something touches it
-    int steps = 0;               ///< taken since it joined an island
-    int calm_steps = 0;          ///< on end, in which it hardly moved
+    bool crowded = false;        ///< a member of the crowd (crowd.h), asleep or not
+    double impacts_since = 0;    ///< s: its recent impacts are counted from here
+    int recent_impacts = 0;
+    int steps = 0;       ///< taken since it joined an island
+    int calm_steps = 0;  ///< on end, in which it hardly moved
+    int slow_steps = 0;  ///< on end, in which it moved, but slowly
     /// s, when the row of the lasting contact is due: at the end of its bouncing series.
     double row_due = std::numeric_limits<double>::infinity();
     /// m/s: relative speeds below this are what its last impacts left of a zero.

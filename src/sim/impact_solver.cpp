@@ -6,6 +6,7 @@
 
 #include "core/failure.h"
 #include "sim/impact_sweeps.h"
+#include "sim/ode_bodies.h"
 #include "sim/ode_messages.h"
 #include "sim/ode_world.h"
 
@@ -59,11 +60,7 @@ bool is_solved(const std::vector<ImpactBody>& before, const std::vector<ImpactBo
 struct ImpactSolver::World {
     OdeWorldPtr world;
     OdeJointGroupPtr contacts;
-    struct Body {
-        dBodyID id = nullptr;
-        double mass = 0, inertia = 0;  ///< as ODE knows them; setting them costs a matrix inverse
-    };
-    std::vector<Body> bodies;  ///< the unused ones are disabled
+    OdeBodies bodies;
     std::vector<dJointFeedback> feedback;
 };
 
@@ -79,31 +76,8 @@ ImpactSolver::ImpactSolver() : world_(std::make_unique<World>()) {
 
 ImpactSolver::~ImpactSolver() = default;
 
-void ImpactSolver::prepare(const std::vector<ImpactBody>& bodies) {
-    while (world_->bodies.size() < bodies.size())
-        world_->bodies.push_back({dBodyCreate(world_->world.get()), 0, 0});
-    // Positions relative to the first body: ODE needs arms, not places in the world.
-    const Vec3 origin = bodies.front().position;
-    for (std::size_t i = 0; i < world_->bodies.size(); ++i) {
-        const dBodyID body = world_->bodies[i].id;
-        if (i >= bodies.size()) {
-            dBodyDisable(body);
-            continue;
-        }
-        const ImpactBody& b = bodies[i];
-        if (b.mass != world_->bodies[i].mass || b.inertia != world_->bodies[i].inertia) {
-            dMass mass;
-            dMassSetParameters(&mass, b.mass, 0, 0, 0, b.inertia, b.inertia, b.inertia, 0, 0, 0);
-            dBodySetMass(body, &mass);
-            world_->bodies[i] = {body, b.mass, b.inertia};
-        }
-        dBodyEnable(body);
-        set_motion(body, b.position - origin, b.velocities.linear, b.velocities.spin);
-    }
-}
-
 void ImpactSolver::add_joint(const Contact& contact, std::size_t index) {
-    const dBodyID ball = world_->bodies[static_cast<std::size_t>(contact.ball)].id;
+    const dBodyID ball = world_->bodies.at(contact.ball);
     dContact joint = {};
     joint.surface.mode = dContactBounce;
     joint.surface.bounce = contact.restitution;
@@ -119,24 +93,20 @@ void ImpactSolver::add_joint(const Contact& contact, std::size_t index) {
         }
     }
     const dJointID id = dJointCreateContact(world_->world.get(), world_->contacts.get(), &joint);
-    const dBodyID other = contact.other.is_surface
-                              ? nullptr
-                              : world_->bodies[static_cast<std::size_t>(contact.other.index)].id;
+    const dBodyID other =
+        contact.other.is_surface ? nullptr : world_->bodies.at(contact.other.index);
     dJointAttach(id, ball, other);
     dJointSetFeedback(id, &world_->feedback[index]);
 }
 
 bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
                                   double time) {
-    prepare(bodies);
+    world_->bodies.place(world_->world.get(), bodies);
     world_->feedback.resize(contacts.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) add_joint(contacts[i], i);
     OdeMessages messages;
     dWorldStep(world_->world.get(), kStep);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        bodies[i].velocities.linear = from_ode(dBodyGetLinearVel(world_->bodies[i].id));
-        bodies[i].velocities.spin = from_ode(dBodyGetAngularVel(world_->bodies[i].id));
-    }
+    world_->bodies.read(bodies);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         Contact& c = contacts[i];
         const Vec3 impulse = kStep * from_ode(world_->feedback[i].f1);
@@ -144,10 +114,7 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
         c.tangential_impulse = tangential_part(impulse, c.normal).norm();
     }
     dJointGroupEmpty(world_->contacts.get());
-    while (world_->bodies.size() > kBodiesKept) {
-        dBodyDestroy(world_->bodies.back().id);
-        world_->bodies.pop_back();
-    }
+    world_->bodies.keep(kBodiesKept);
     if (!messages.empty() && contacts.size() == 1)
         throw Failure(FailureKind::kRun,
                       fmt::format("ODE at {} s, solving an impact: {}", time, messages.text()));

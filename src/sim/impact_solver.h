@@ -31,7 +31,6 @@ class ImpactSolver {
 
   private:
     struct World;
-    void prepare(const std::vector<ImpactBody>& bodies);
     void add_joint(const Contact& contact, std::size_t index);
     bool solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
                         double time);

@@ -6,6 +6,7 @@
 #include "core/check.h"
 #include "sim/contact_solver.h"
 #include "sim/island_sweeps.h"
+#include "sim/ode_bodies.h"
 #include "sim/ode_messages.h"
 #include "sim/ode_world.h"
 
@@ -41,7 +42,7 @@ double largest_speed(const std::vector<ImpactBody>& bodies) {
 struct IslandSolver::World {
     OdeWorldPtr world;
     OdeJointGroupPtr contacts;
-    std::vector<dBodyID> bodies;  ///< grows to the largest island; the unused ones are disabled
+    OdeBodies bodies;
     std::vector<dJointFeedback> feedback;
     std::vector<double> target;  ///< per contact: least speed along the normal after the step
     std::vector<Vec3> pushes;    ///< per contact: impulse on its ball, N s
@@ -60,30 +61,8 @@ IslandSolver::IslandSolver() : world_(std::make_unique<World>()) {
 
 IslandSolver::~IslandSolver() = default;
 
-void IslandSolver::place(const std::vector<ImpactBody>& bodies, const Vec3& gravity) {
-    dWorldSetGravity(world_->world.get(), gravity.x(), gravity.y(), gravity.z());
-    while (world_->bodies.size() < bodies.size()) {
-        world_->bodies.push_back(dBodyCreate(world_->world.get()));
-        dBodySetGyroscopicMode(world_->bodies.back(), 0);  // a ball's inertia has no direction
-    }
-    const Vec3 origin = bodies.front().position;  // ODE needs arms, not places in the world
-    for (std::size_t i = 0; i < world_->bodies.size(); ++i) {
-        const dBodyID body = world_->bodies[i];
-        if (i >= bodies.size()) {
-            dBodyDisable(body);
-            continue;
-        }
-        const ImpactBody& b = bodies[i];
-        dMass mass;
-        dMassSetParameters(&mass, b.mass, 0, 0, 0, b.inertia, b.inertia, b.inertia, 0, 0, 0);
-        dBodySetMass(body, &mass);
-        dBodyEnable(body);
-        set_motion(body, b.position - origin, b.velocities.linear, b.velocities.spin);
-    }
-}
-
 void IslandSolver::add_joint(const Contact& contact, std::size_t index) {
-    const dBodyID ball = world_->bodies[static_cast<std::size_t>(contact.ball)];
+    const dBodyID ball = world_->bodies.at(contact.ball);
     dContact joint = {};
     joint.surface.mode = dContactMotionN | dContactSoftCFM | dContactSoftERP;
     joint.surface.motionN = world_->target[index];
@@ -110,9 +89,8 @@ void IslandSolver::add_joint(const Contact& contact, std::size_t index) {
         }
     }
     const dJointID id = dJointCreateContact(world_->world.get(), world_->contacts.get(), &joint);
-    const dBodyID other = contact.other.is_surface
-                              ? nullptr
-                              : world_->bodies[static_cast<std::size_t>(contact.other.index)];
+    const dBodyID other =
+        contact.other.is_surface ? nullptr : world_->bodies.at(contact.other.index);
     dJointAttach(id, ball, other);
     dJointSetFeedback(id, &world_->feedback[index]);
 }
@@ -135,17 +113,15 @@ void IslandSolver::follow_slip(const Contact& c, const ImpactBody& body, const V
 bool IslandSolver::solve_with_ode(std::vector<ImpactBody>& bodies,
                                   const std::vector<Contact>& contacts, const Vec3& gravity,
                                   double seconds) {
-    place(bodies, gravity);
+    dWorldSetGravity(world_->world.get(), gravity.x(), gravity.y(), gravity.z());
+    world_->bodies.place(world_->world.get(), bodies);
     for (std::size_t i = 0; i < contacts.size(); ++i) add_joint(contacts[i], i);
     const OdeMessages messages;
     dRandSetSeed(0);  // ODE shuffles rows by random numbers of its own: always the same ones
     dWorldStep(world_->world.get(), seconds);
     dJointGroupEmpty(world_->contacts.get());
     if (!messages.empty()) return false;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        bodies[i].velocities.linear = from_ode(dBodyGetLinearVel(world_->bodies[i]));
-        bodies[i].velocities.spin = from_ode(dBodyGetAngularVel(world_->bodies[i]));
-    }
+    world_->bodies.read(bodies);
     for (std::size_t i = 0; i < contacts.size(); ++i)
         world_->pushes[i] = seconds * from_ode(world_->feedback[i].f1);
     return true;

@@ -37,7 +37,6 @@ class IslandSolver {
 
   private:
     struct World;
-    void place(const std::vector<ImpactBody>& bodies, const Vec3& gravity);
     void add_joint(const Contact& contact, std::size_t index);
     void follow_slip(const Contact& contact, const ImpactBody& body, const Vec3& fall,
                      std::size_t index);

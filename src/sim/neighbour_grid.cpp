@@ -37,16 +37,21 @@ NeighbourGrid::NeighbourGrid(const std::vector<Vec3>& positions, const std::vect
     double diameter = 0;
     for (std::size_t i = 0; i < radii.size(); ++i)
         if (slots_[i].in_cell) diameter = std::max(diameter, 2 * radii[i]);
-    const Vec3 extent = (high - low).cwiseMax(diameter);
-    const double spacing = std::cbrt(extent.prod() / static_cast<double>(positions.size()));
-    size_ = std::max(kOfSpacing * spacing, diameter * (1 + 4 * kMargin));
     largest_radius_ = 0.5 * diameter;
+    size_ = cell_size_for(low, high);
 
     std::size_t buckets = 16;
     while (buckets < 4 * positions.size()) buckets *= 2;
     heads_.assign(buckets, -1);
     for (std::size_t i = 0; i < positions.size(); ++i)
         if (slots_[i].in_cell) insert(static_cast<int>(i), cell_at(positions[i]));
+}
+
+double NeighbourGrid::cell_size_for(const Vec3& low, const Vec3& high) const {
+    const double diameter = 2 * largest_radius_;
+    const Vec3 extent = (high - low).cwiseMax(diameter);
+    const double spacing = std::cbrt(extent.prod() / static_cast<double>(slots_.size()));
+    return std::max(kOfSpacing * spacing, diameter * (1 + 4 * kMargin));
 }
 
 void NeighbourGrid::choose_large(const std::vector<double>& radii) {

@@ -22,6 +22,8 @@ class NeighbourGrid {
     NeighbourGrid(const std::vector<Vec3>& positions, const std::vector<double>& radii);
 
     double cell_size() const { return size_; }
+    /// The size that these balls should have when they fill the space from low to high.
+    double cell_size_for(const Vec3& low, const Vec3& high) const;
     /// A ball counts as inside its cell until it is this far outside, so that one on a border does
     /// not go to and fro with its rounding.
     double margin() const { return kMargin * size_; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/bracketed_root.h"
+
 namespace carom {
 
 namespace {
@@ -13,6 +15,11 @@ constexpr double kTouching = 1e-14;
 
 /// The time of the turn inside a piece, where n . v(t) = 0 on its way down.
 std::optional<double> turn_in(const Piece& piece, const Vec3& normal, double from, double to) {
+    if (piece.curve) {
+        const auto rising = [&](double t) { return normal.dot(piece.velocity_at(t)); };
+        if (!(rising(from) > 0 && rising(to) < 0)) return std::nullopt;
+        return bracketed_root(rising, from, to);
+    }
     const double a = normal.dot(piece.acceleration);
     if (!(a < 0)) return std::nullopt;
     const double t = piece.start - normal.dot(piece.velocity) / a;
@@ -25,13 +32,12 @@ std::optional<double> turn_in(const Piece& piece, const Vec3& normal, double fro
 double gap_at(const Piece& piece, const Event& impact, double radius, double turn) {
     const auto gap = [&](const Vec3& x) { return impact.normal.dot(x - impact.point) - radius; };
     const double scale = piece.position.cwiseAbs().maxCoeff() + radius;
-    if (piece.start == impact.time && std::abs(gap(piece.position)) <= kTouching * scale) {
+    if (!piece.curve && piece.start == impact.time &&
+        std::abs(gap(piece.position)) <= kTouching * scale) {
         const double v = impact.normal.dot(piece.velocity);
         return v * v / (-2 * impact.normal.dot(piece.acceleration));
     }
-    return gap(piece.position +
-               (turn - piece.start) *
-                   (piece.velocity + (0.5 * (turn - piece.start)) * piece.acceleration));
+    return gap(piece.position_at(turn));
 }
 
 /// The highest turn of the gap between two instants.

@@ -146,6 +146,32 @@ Nearest nearest_on_box(const Vec3& center, double radius, const BoxShape& box) {
     return {distance - radius, world_from_box * away, box.center + world_from_box * nearest};
 }
 
+/// The box with sides along the axes that a path stays in up to the horizon, rounding included.
+struct Bounds {
+    Vec3 low, high;
+
+    Bounds(const Path& p, double horizon) {
+        const Vec3 end = p.at(horizon);
+        low = p.position.cwiseMin(end);
+        high = p.position.cwiseMax(end);
+        for (int i = 0; i < 3; ++i) {
+            if (p.acceleration[i] == 0) continue;
+            const double turn = -p.velocity[i] / p.acceleration[i];
+            if (!(turn > 0 && turn < horizon)) continue;
+            low[i] = std::min(low[i], p.at(turn)[i]);
+            high[i] = std::max(high[i], p.at(turn)[i]);
+        }
+        const Vec3 rounding = 1e-9 * low.cwiseAbs().cwiseMax(high.cwiseAbs());
+        low -= rounding;
+        high += rounding;
+    }
+    /// Whether something within `radius` of the path may reach the box from a to b.
+    bool reaches(const Vec3& a, const Vec3& b, double radius) const {
+        const double r = radius * (1 + 1e-6);
+        return ((low.array() - r) <= b.array()).all() && ((high.array() + r) >= a.array()).all();
+    }
+};
+
 /// Whether a contact now belongs to a feature with this gap: then the gap is 0, not its rounding.
 bool is_contact(bool touching, double gap, double scale) {
     return touching && std::abs(gap) <= 1e-9 * scale;
@@ -189,8 +215,10 @@ TimeOfImpact impact_with_box(const Path& ball, double radius, const BoxShape& bo
     const Mat3 box_from_world = box.orientation.toRotationMatrix().transpose();
     const Path p{box_from_world * (ball.position - box.center), box_from_world * ball.velocity,
                  box_from_world * ball.acceleration};
-    const SurfaceShape own_frame = BoxShape{Vec3::Zero(), box.size, Quat::Identity()};
     const Vec3 half = 0.5 * box.size;
+    const Bounds bounds(p, horizon);
+    if (!touching && !bounds.reaches(-half, half, radius)) return {};
+    const SurfaceShape own_frame = BoxShape{Vec3::Zero(), box.size, Quat::Identity()};
     EarliestTouch earliest(p, radius, own_frame);
 
     for (int axis = 0; axis < 3; ++axis)
@@ -210,10 +238,13 @@ TimeOfImpact impact_with_box(const Path& ball, double radius, const BoxShape& bo
         Vec3 c;
         for (int axis = 0; axis < 3; ++axis)
             c[axis] = (corner >> axis & 1) != 0 ? half[axis] : -half[axis];
-        offer_round(shifted(p, c));
+        if (bounds.reaches(c, c, radius)) offer_round(shifted(p, c));
         // The edges that start at this corner and run along +axis.
-        for (int axis = 0; axis < 3; ++axis)
-            if (c[axis] < 0) offer_round(across(shifted(p, c), Vec3::Unit(axis)));
+        for (int axis = 0; axis < 3; ++axis) {
+            const Vec3 end = c + box.size[axis] * Vec3::Unit(axis);
+            if (c[axis] < 0 && bounds.reaches(c, end, radius))
+                offer_round(across(shifted(p, c), Vec3::Unit(axis)));
+        }
     }
     return earliest.result();
 }

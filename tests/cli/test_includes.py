@@ -15,13 +15,15 @@ MAY_INCLUDE = {
     "sim": {"core", "scene", "motion"},
     "render": {"core", "scene", "motion"},
     "media": {"core"},
-    "cli": {"core", "scene", "motion", "sim", "render", "media"},
+    "report": {"core", "scene", "motion", "sim", "render", "media"},
+    "cli": {"core", "scene", "motion", "sim", "render", "media", "report"},
 }
 
 # Header of a third-party library -> the folders that may name it.
 LIBRARY_HOME = {
     r"yaml-cpp/": {"scene"},
     r"ode/": {"sim"},
+    r"boost/numeric/odeint/": {"sim"},
     r"(GL|EGL)/": {"render"},
     r"cairo|fontconfig/": {"render"},
     r"png\.h": {"media"},

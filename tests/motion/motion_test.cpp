@@ -51,6 +51,57 @@ Quat integrated(const Piece& p, double t, int n) {
     return q;
 }
 
+/// A piece with a curve of everything, for 0.4 s.
+Piece curved() {
+    Piece p = piece(1, {1, 2, 3}, {4, -5, 6}, {1, 0, -10});
+    p.orientation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitX()));
+    p.spin = Vec3(1, -2, 0.5);
+    p.spin_rate = Vec3(0.4, 1, -2);
+    Curve curve;
+    curve.seconds = 0.4;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const double x = 0.1 * static_cast<double>(i + 1);
+        curve.position[i] = Vec3(x, -0.2, 0.3 * x);
+        curve.turn[i] = Vec3(-0.1, x, 0.05);
+    }
+    p.curve = OptionalCurve(curve);
+    return p;
+}
+
+TEST(Piece, CurvesAreConsistent) {
+    const Piece p = curved();
+    const double h = 1e-5;
+    double bound = 0;
+    for (const double t : {1.0, 1.1, 1.25, 1.4}) {
+        const BallState before = p.at(t - h), here = p.at(t), after = p.at(t + h);
+        EXPECT_LT(((after.position - before.position) / (2 * h) - here.velocity).norm(), 1e-4);
+        EXPECT_LT(((after.velocity - before.velocity) / (2 * h) - p.acceleration_at(t)).norm(),
+                  1e-3);
+        // q' = spin q / 2
+        const Vec3 turn = 2 * (after.orientation * before.orientation.conjugate()).vec() / (2 * h);
+        EXPECT_LT((turn - here.spin).norm(), 1e-5);
+        bound = std::max(bound, p.acceleration_at(t).norm());
+    }
+    EXPECT_GE(p.largest_acceleration(), bound);
+    EXPECT_GT(bound, 11);  // the curve is felt
+}
+
+TEST(Piece, CurvesAreValues) {
+    const Piece p = curved();
+    Piece copy = p;
+    EXPECT_EQ(copy.at(1.3).position, p.at(1.3).position);
+    copy.curve = {};
+    EXPECT_NE(copy.at(1.3).position, p.at(1.3).position);
+    EXPECT_TRUE(p.curve);
+
+    Motion with, without;
+    with.balls.resize(1);
+    without.balls.resize(1);
+    with.balls[0].append(p);
+    without.balls[0].append(copy);
+    EXPECT_NE(with.hash(), without.hash());
+}
+
 TEST(Piece, TurnsToFourthOrderAboutATurningAxis) {
     Piece p;
     p.spin = Vec3(3, -1, 2);

@@ -169,7 +169,7 @@ TEST(Ruler, EndsAtTheNextMarkAboveTheHighestGap) {
 
 TEST(Ruler, StandsWhereTheSceneSays) {
     Sample sample = drop(1.8, 0.12, 4);
-    sample.scene.overlay.ruler = RulerOptions{Vec2(-0.7, 0.2), 0.5, 1.75};
+    sample.scene.overlay.ruler = RulerOptions{Vec2(-0.7, 0.2), 0.5, 1.75, {}};
     const View view = view_of(sample, {1280, 720});
     const auto staff = stand_ruler(sample.scene, sample.motion, view);
     ASSERT_TRUE(staff);

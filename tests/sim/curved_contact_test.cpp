@@ -1,24 +1,51 @@
-// One ball on one contact without a closed form: slip that turns, spheres, edges (method exact).
+// One ball on one contact without a closed form of its path: slip that turns, spheres, edges,
+// capsules (method exact). Where it lifts off, what it conserves and when its slip ends do have
+// closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "scenes.h"
+#include "exact_scenes.h"
 
 namespace carom::testing {
 namespace {
 
-constexpr double kPlaceBound = 1e-9, kSpeedBound = 2e-9;
+/// Of places, speeds and cosines of normals, where the issue asks for 1e-10 and 1e-9.
+constexpr double kBound = 1e-12;
 
-/// A step of one ball on one contact sees the lift-off at its end, up to two steps late.
-constexpr double kCosineBound = 5e-4;
-
-Scene exact_scene(double restitution, double friction) {
-    Scene scene = scene_of(restitution, friction, kGravity, 0.00025);
-    scene.simulation.method = Method::kExact;
-    return scene;
+Surface& add_surface(Scene& scene, const char* name, const SurfaceShape& shape) {
+    Surface s;
+    s.name = name;
+    s.shape = shape;
+    s.material = 2;
+    scene.surfaces.push_back(s);
+    return scene.surfaces.back();
 }
+
+/// Kinetic and potential energy per mass of ball 0, m^2/s^2.
+double energy(const Scene& scene, const BallState& s) {
+    const Ball& b = scene.balls[0];
+    return 0.5 * s.velocity.squaredNorm() +
+           0.5 * b.inertia_factor * b.radius * b.radius * s.spin.squaredNorm() -
+           scene.simulation.gravity.dot(s.position);
+}
+
+Vec3 slip_of(const Ball& ball, const BallState& s, const Vec3& normal) {
+    const Vec3 v = s.velocity - ball.radius * s.spin.cross(normal);
+    return v - v.dot(normal) * normal;
+}
+
+/// The only row of a kind.
+Event only(const Motion& motion, EventKind kind) {
+    const std::vector<Event> rows = events_of(motion, kind);
+    EXPECT_EQ(rows.size(), 1u) << event_kind_name(kind);
+    return rows.empty() ? Event{} : rows.front();
+}
+
+// ---- Slip that turns
+// ------------------------------------------------------------------------------
 
 // Slip across a slope: ds/dt = g_t - mu g_n (1 + 1/k) s/|s|, dv/dt = g_t - mu g_n s/|s|, integrated
 // by the classical Runge-Kutta method with steps of 1e-5 s.
@@ -45,7 +72,7 @@ Slip slip_reference(const Vec3& g_t, double grip, double k, Slip now, double sec
 
 TEST(CurvedContact, SlipAcrossSlopeTurns) {  // H28
     for (const double k : {kSolid, kShell}) {
-        Scene scene = exact_scene(0, 0.3);
+        Scene scene = exact_scene(0, 0.3, kGravity);
         const Vec3 n = incline(10);
         add_plane(scene, n);
         add_ball(scene, 0.1 * n, Vec3(0, 3, 0)).inertia_factor = k;
@@ -56,57 +83,385 @@ TEST(CurvedContact, SlipAcrossSlopeTurns) {  // H28
         const BallState s = r.motion.balls[0].at(0.25);
         const double place = (s.position - end.position).norm();
         const double speed = (s.velocity - end.velocity).norm();
-        std::printf("k = %.3g: position off by %.3g m, velocity by %.3g m/s\n", k, place, speed);
-        EXPECT_LT(place, kPlaceBound);
-        EXPECT_LT(speed, kSpeedBound);
+        std::printf("k = %.3g: position off by %.3g m, velocity by %.3g m/s, %zu pieces\n", k,
+                    place, speed, r.motion.balls[0].pieces().size());
+        EXPECT_LT(place, kBound);
+        EXPECT_LT(speed, kBound);
+        EXPECT_LT(r.motion.balls[0].pieces().size(), 40u);
+    }
+}
+
+// With g = |g_t|, A = mu g_n (1 + 1/k) and the slip s: d/dt (g_t.s + A |s|) = g^2 - A^2, so the
+// slip ends at (g_t.s0 + A |s0|) / (A^2 - g^2); and v - k/(1+k) s always changes by g_t / (1+k).
+TEST(CurvedContact, TurningSlipEndsInRolling) {
+    for (const double degrees : {2.0, 10.0, 25.0})
+        for (const double azimuth : {0.5, 1.5, 2.8})
+            for (const double k : {kSolid, kShell}) {
+                const double mu = 0.35;
+                Scene scene = exact_scene(0, mu, kGravity);
+                const Vec3 n = incline(degrees, 20);
+                add_plane(scene, n);
+                const Vec3 g = scene.simulation.gravity, g_t = g - g.dot(n) * n;
+                const Vec3 down = g_t.normalized();
+                const Vec3 v0 = 2 * (std::cos(azimuth) * down + std::sin(azimuth) * n.cross(down));
+                Ball& ball = add_ball(scene, 0.1 * n, v0);
+                ball.inertia_factor = k;
+                ball.spin = Vec3(1, -2, 5);
+                const Vec3 s0 = slip_of(ball, {ball.position, v0, Quat::Identity(), ball.spin}, n);
+                const double A = -mu * g.dot(n) * (1 + 1 / k);
+                const double expected = (g_t.dot(s0) + A * s0.norm()) / (A * A - g_t.squaredNorm());
+                const SimulationResult r = run(scene, expected + 0.2);
+                const Event roll = only(r.motion, EventKind::kRoll);
+                const double t = expected + 0.1;
+                const BallState s = r.motion.balls[0].at(t);
+                const Vec3 v = v0 - k / (1 + k) * s0 + t / (1 + k) * g_t;
+                const double off = (s.velocity - v).norm();
+                std::printf("%g deg, %g rad: rolls at %.12f s, off by %.2g s; v off by %.2g m/s\n",
+                            degrees, azimuth, roll.time, roll.time - expected, off);
+                EXPECT_NEAR(roll.time, expected, 1e-11);
+                EXPECT_LT(off, 1e-11);
+                EXPECT_LT(slip_of(scene.balls[0], s, n).norm(), kBound);
+            }
+}
+
+// ---- Spheres
+// --------------------------------------------------------------------------------------
+
+struct Dome {
+    Scene scene;
+    Vec3 up;
+    double distance = 1;
+    double start_cosine = 1;
+};
+
+/// A ball at an angle from the top of a sphere, gravity along -up.
+Dome dome(double degrees, double ball_radius, double dome_radius, double friction,
+          const Vec3& up = Vec3::UnitZ()) {
+    Dome d{exact_scene(0, friction, kGravity), up.normalized(), ball_radius + dome_radius, 1};
+    d.scene.simulation.gravity = -kGravity * d.up;
+    const Vec3 center(0.3, -0.2, 0.4);
+    add_surface(d.scene, "dome", SphereShape{center, dome_radius});
+    const double a = degrees * M_PI / 180;
+    const Vec3 side = d.up.unitOrthogonal();
+    add_ball(d.scene, center + d.distance * (std::cos(a) * d.up + std::sin(a) * side), Vec3::Zero(),
+             ball_radius);
+    d.start_cosine = std::cos(a);
+    return d;
+}
+
+void expect_departure(Dome& d, double cosine, double k, const char* what) {
+    // From rest the angle grows like exp(t sqrt(g / D)); some seconds are enough for all.
+    const SimulationResult r = run(d.scene, 12 * std::sqrt(d.distance / kGravity));
+    const Event leave = only(r.motion, EventKind::kLeave);
+    const Trajectory& ball = r.motion.balls[0];
+    const double relative = leave.normal.dot(d.up) / cosine - 1;
+    const double drift = energy(d.scene, ball.at(leave.time)) - energy(d.scene, ball.at(0));
+    const double fall = kGravity * d.distance * (d.start_cosine - cosine);
+    std::printf("%s: leaves at %.4f s, cosine off by %.2g; energy by %.2g; %zu pieces\n", what,
+                leave.time, relative, drift / fall, ball.pieces().size());
+    EXPECT_NEAR(relative, 0, kBound);
+    EXPECT_NEAR(drift / fall, 0, kBound);
+    EXPECT_LT(ball.pieces().size(), 200u);
+    // On the way it stays on the sphere, and its speed is that of the height.
+    const Vec3 center = std::get<SphereShape>(d.scene.surfaces[0].shape).center;
+    for (int i = 0; i <= 100; ++i) {
+        const BallState s = ball.at(leave.time * i / 100);
+        const Vec3 q = s.position - center;
+        EXPECT_NEAR(q.norm(), d.distance, 1e-13 * (1 + d.distance));
+        const double v2 = 2 / (1 + k) * kGravity * (d.distance * d.start_cosine - d.up.dot(q));
+        EXPECT_NEAR(s.velocity.squaredNorm(), v2, 1e-11 * fall);
     }
 }
 
 TEST(CurvedContact, BallLeavesSphere) {  // H29
-    for (const double degrees : {10.0, 30.0}) {
-        Scene scene = exact_scene(0, 0);
-        Surface dome;
-        dome.name = "dome";
-        dome.shape = SphereShape{Vec3::Zero(), 0.9};
-        dome.material = 2;
-        scene.surfaces.push_back(dome);
-        const double a = degrees * M_PI / 180;
-        add_ball(scene, Vec3(std::sin(a), 0, std::cos(a)));
-        const SimulationResult r = run(scene, 1.5);
-        const std::vector<Event> leaves = events_of(r.motion, EventKind::kLeave);
-        ASSERT_EQ(leaves.size(), 1u);
-        const double cosine = leaves[0].normal.z();
-        // The state at the departure, from the flight that follows: energy and angle.
-        const BallState s = r.motion.balls[0].at(leaves[0].time);
-        std::printf("%g deg: leaves at cos = %.9f, 2/3 cos0 = %.9f; v^2/(2g) + z - z0 = %.3g m\n",
-                    degrees, cosine, 2.0 / 3 * std::cos(a),
-                    s.velocity.squaredNorm() / (2 * kGravity) + s.position.z() - std::cos(a));
-        EXPECT_NEAR(cosine, 2.0 / 3 * std::cos(a), kCosineBound);
-        EXPECT_NEAR(s.velocity.squaredNorm() / (2 * kGravity) + s.position.z(), std::cos(a),
-                    kPlaceBound);
+    for (const double degrees : {1.0, 10.0, 30.0, 60.0}) {
+        Dome d = dome(degrees, 0.1, 0.9, 0);
+        expect_departure(d, 2.0 / 3 * d.start_cosine, 0, "smooth");
+    }
+    for (const double radius : {1e-3, 0.02, 3.0}) {
+        Dome d = dome(20, radius, 0.5, 0);
+        expect_departure(d, 2.0 / 3 * d.start_cosine, 0, "radius of the ball");
+    }
+    for (const double radius : {0.01, 40.0}) {
+        Dome d = dome(20, 0.1, radius, 0);
+        expect_departure(d, 2.0 / 3 * d.start_cosine, 0, "radius of the sphere");
+    }
+    for (const Vec3& up : {Vec3(1, 0, 0), Vec3(-1, 2, 0.5), Vec3(0, 0, -1)}) {
+        Dome d = dome(15, 0.1, 0.9, 0, up);
+        expect_departure(d, 2.0 / 3 * d.start_cosine, 0, "up elsewhere");
     }
 }
 
-TEST(CurvedContact, BallPivotsOverEdge) {      // H30
-    for (const double v : {0.3, 0.99, 1.2}) {  // sqrt(g R) = 0.99045
-        Scene scene = exact_scene(0, 0);
-        Surface table;
-        table.name = "table";
-        table.shape = BoxShape{Vec3(-1, 0, -0.5), Vec3(2, 2, 1), Quat::Identity()};
-        table.material = 2;
-        scene.surfaces.push_back(table);
-        add_ball(scene, Vec3(-0.1, 0, 0.1), Vec3(v, 0, 0));
-        const SimulationResult r = run(scene, 1);
-        const std::vector<Event> leaves = events_of(r.motion, EventKind::kLeave);
-        ASSERT_EQ(leaves.size(), 1u);
-        const BallState s = r.motion.balls[0].at(leaves[0].time);
-        // It leaves where v^2 = g R cos, with v^2 = v0^2 + 2 g R (1 - cos).
-        const double R = 0.1;
-        const double expected = std::min(1.0, (v * v / (kGravity * R) + 2) / 3);
-        const double cosine = s.position.z() / R;
-        std::printf("v = %g: leaves at cos = %.9f, expected %.9f\n", v, cosine, expected);
-        EXPECT_NEAR(cosine, expected, kCosineBound);
+// (1 + k) v^2 / 2 = g D (cos0 - cos), and it leaves where v^2 = g D cos: cos = 2 cos0 / (3 + k).
+TEST(CurvedContact, BallRollsOffSphere) {
+    for (const double k : {kSolid, kShell})
+        for (const double degrees : {5.0, 40.0}) {
+            Dome d = dome(degrees, 0.1, 0.9, 1e12);
+            d.scene.balls[0].inertia_factor = k;
+            expect_departure(d, 2 / (3 + k) * d.start_cosine, k, "rolling");
+        }
+}
+
+// With y = (angle's rate)^2, rolling has (1 + k) D y / 2 = g (cos0 - cos) and holds while
+// k/(1+k) g sin <= mu (g cos - D y). Sliding has dy/dangle = 2 mu y + 2 g/D (sin - mu cos), solved
+// by y = A cos + B sin + C exp(2 mu angle), A = (4 mu^2 - 2)/(1 + 4 mu^2) g/D, B = -6 mu/(1 + 4
+// mu^2) g/D. It leaves where g cos = D y.
+TEST(CurvedContact, RollingBallBeginsToSlideOnSphere) {
+    for (const double mu : {0.1, 0.5, 1.5}) {
+        Dome d = dome(3, 0.1, 0.9, mu);
+        const double g = kGravity, D = d.distance, k = kSolid;
+        const auto root = [](const auto& f) {  // from positive to negative in [3, 90] degrees
+            double lo = 3 * M_PI / 180, hi = M_PI / 2;
+            for (int i = 0; i < 100; ++i) (f(0.5 * (lo + hi)) > 0 ? lo : hi) = 0.5 * (lo + hi);
+            return lo;
+        };
+        const auto rolling = [&](double a) {
+            return 2 / (1 + k) * g / D * (d.start_cosine - std::cos(a));
+        };
+        const double slides = root([&](double a) {
+            return mu * (g * std::cos(a) - D * rolling(a)) - k / (1 + k) * g * std::sin(a);
+        });
+        const double A = (4 * mu * mu - 2) / (1 + 4 * mu * mu) * g / D;
+        const double B = -6 * mu / (1 + 4 * mu * mu) * g / D;
+        const double C = (rolling(slides) - A * std::cos(slides) - B * std::sin(slides)) *
+                         std::exp(-2 * mu * slides);
+        const double leaves = root([&](double a) {
+            const double y = A * std::cos(a) + B * std::sin(a) + C * std::exp(2 * mu * a);
+            return g * std::cos(a) - D * y;
+        });
+        const SimulationResult r = run(d.scene, 5);
+        const double slide_cosine = only(r.motion, EventKind::kSlide).normal.dot(d.up);
+        const double leave_cosine = only(r.motion, EventKind::kLeave).normal.dot(d.up);
+        std::printf("mu = %g: slides at cos = %.12f, off by %.2g; leaves at %.12f, off by %.2g\n",
+                    mu, slide_cosine, slide_cosine - std::cos(slides), leave_cosine,
+                    leave_cosine - std::cos(leaves));
+        EXPECT_NEAR(slide_cosine, std::cos(slides), kBound);
+        EXPECT_NEAR(leave_cosine, std::cos(leaves), 1e-11);
+        EXPECT_GT(slides, 4 * M_PI / 180);
+        EXPECT_GT(leaves, slides + 0.01);
     }
+}
+
+TEST(CurvedContact, BallOnTheVeryTopRests) {
+    for (const double friction : {0.0, 0.5}) {
+        Scene scene = exact_scene(0.5, friction, kGravity);
+        add_surface(scene, "dome", SphereShape{Vec3::Zero(), 0.9});
+        add_ball(scene, Vec3(0, 0, 1.4)).spin = Vec3(0, 0, 3);
+        const SimulationResult r = run(scene, 20);
+        const double expected = std::sqrt(2 * 0.4 / kGravity) * 1.5 / 0.5;
+        EXPECT_NEAR(only(r.motion, EventKind::kRest).time, expected, 1e-9);
+        const BallState s = r.motion.balls[0].at(20);
+        EXPECT_NEAR(s.position.z(), 1, 1e-14);
+        EXPECT_EQ(s.velocity, Vec3::Zero());
+        EXPECT_TRUE(events_of(r.motion, EventKind::kLeave).empty());
+    }
+}
+
+TEST(CurvedContact, MirroredBallsMirror) {
+    Scene scene = exact_scene(0, 0.4, kGravity);
+    add_surface(scene, "dome", SphereShape{Vec3::Zero(), 0.9});
+    for (const double side : {-1.0, 1.0}) {
+        const Vec3 n = Vec3(side * 0.3, 0.1, 1).normalized();
+        const Vec3 v(0.1 * side, 0.2, 0);
+        add_ball(scene, n, v - v.dot(n) * n).spin = Vec3(1, -2 * side, 3 * side);
+    }
+    const SimulationResult r = run(scene, 1.2);
+    ASSERT_EQ(events_of(r.motion, EventKind::kLeave).size(), 2u);
+    double worst = 0;
+    for (int i = 0; i <= 120; ++i) {
+        const BallState a = r.motion.balls[0].at(0.01 * i), b = r.motion.balls[1].at(0.01 * i);
+        const Vec3 mirrored(-a.position.x(), a.position.y(), a.position.z());
+        worst = std::max(worst, (mirrored - b.position).norm());
+    }
+    std::printf("mirrored places differ by %.2g m\n", worst);
+    EXPECT_LT(worst, kBound);
+}
+
+// ---- Edges
+// ----------------------------------------------------------------------------------------
+
+// It leaves where v^2 = g R cos, with v^2 = v0^2 + 2 g R (1 - cos); only the part across the edge
+// counts, the part along it stays.
+TEST(CurvedContact, BallPivotsOverEdge) {  // H30
+    for (const double R : {0.1, 0.004})
+        for (const double fraction : {0.05, 0.3, 0.999, 1.001, 1.5})
+            for (const double along : {0.0, 0.7}) {
+                const double v = fraction * std::sqrt(kGravity * R);
+                Scene scene = exact_scene(0, 0, kGravity);
+                add_surface(scene, "table",
+                            BoxShape{Vec3(-1, 0, -0.5), Vec3(2, 9, 1), Quat::Identity()});
+                add_ball(scene, Vec3(-R, 0, R), Vec3(v, along, 0), R);
+                const SimulationResult r = run(scene, R / v + 1);
+                const Event leave = only(r.motion, EventKind::kLeave);
+                const BallState s = r.motion.balls[0].at(leave.time);
+                const double expected = std::min(1.0, (v * v / (kGravity * R) + 2) / 3);
+                const double relative = s.position.z() / R / expected - 1;
+                std::printf("R = %g, v = %.3f sqrt(g R): leaves at cos = %.12f, off by %.2g\n", R,
+                            fraction, s.position.z() / R, relative);
+                EXPECT_NEAR(relative, 0, kBound);
+                EXPECT_NEAR(s.velocity.y(), along, kBound);
+                EXPECT_NEAR(s.position.y(), along * leave.time, kBound);
+                EXPECT_GE(leave.time, R / v - kBound);
+            }
+}
+
+TEST(CurvedContact, BallRollsOverEdgeAndCorner) {
+    // Rolling over the edge: (1 + k) v^2 / 2 grows by g R (1 - cos), as on a sphere of radius 0.
+    Scene scene = exact_scene(0, 1e12, kGravity);
+    add_surface(scene, "table", BoxShape{Vec3(-1, 0, -0.5), Vec3(2, 2, 1), Quat::Identity()});
+    const double R = 0.1, k = kSolid, v = 0.4;
+    add_ball(scene, Vec3(-0.2, 0, R), Vec3(v, 0, 0)).spin = Vec3(0, v / R, 0);
+    SimulationResult r = run(scene, 1.5);
+    const double expected = ((1 + k) * v * v / (kGravity * R) + 2) / (3 + k);
+    double cosine = only(r.motion, EventKind::kLeave).normal.z();
+    std::printf("edge: leaves at cos = %.12f, off by %.2g\n", cosine, cosine - expected);
+    EXPECT_NEAR(cosine, expected, kBound);
+
+    // Smooth, straight over the corner of a box that stands on its corner's axis: as H30.
+    Scene corner = exact_scene(0, 0, kGravity);
+    const Quat turn(Eigen::AngleAxisd(M_PI / 4, Vec3::UnitZ()));
+    add_surface(corner, "block", BoxShape{Vec3(-std::sqrt(2.0), 0, -1), Vec3(2, 2, 2), turn});
+    add_ball(corner, Vec3(-R, 0, R), Vec3(v, 0, 0));
+    r = run(corner, 1.5);
+    cosine = only(r.motion, EventKind::kLeave).normal.z();
+    const double smooth = (v * v / (kGravity * R) + 2) / 3;
+    std::printf("corner: leaves at cos = %.12f, off by %.2g\n", cosine, cosine - smooth);
+    EXPECT_NEAR(cosine, smooth, 1e-11);
+}
+
+// ---- Capsules
+// -------------------------------------------------------------------------------------
+
+// Smooth, across a level shaft: as on a sphere, while the motion along it is uniform.
+TEST(CurvedContact, BallSlidesOffShaft) {
+    for (const double along : {0.0, 0.5, 2.0}) {
+        Scene scene = exact_scene(0, 0, kGravity);
+        add_surface(scene, "rail", CapsuleShape{Vec3(-5, 0, 0), Vec3(5, 0, 0), 0.2});
+        const double a = 12 * M_PI / 180, D = 0.3;
+        add_ball(scene, D * Vec3(0, std::sin(a), std::cos(a)), Vec3(along, 0, 0));
+        const SimulationResult r = run(scene, 1.2);
+        const Event leave = only(r.motion, EventKind::kLeave);
+        const BallState s = r.motion.balls[0].at(leave.time);
+        EXPECT_NEAR(leave.normal.z(), 2.0 / 3 * std::cos(a), kBound);
+        EXPECT_NEAR(s.position.x(), along * leave.time, kBound);
+        EXPECT_NEAR(energy(scene, s), energy(scene, r.motion.balls[0].at(0)), kBound);
+    }
+}
+
+// Rolling obliquely on a level cylinder: with the angle a from the top, the speed u along the axis
+// and the spin w_n about the normal, du/da = -L^2 R w_n, L^2 = k/(1+k), and R dw_n/da = u, so
+// u = u0 cos(L (a - a0)) - L R w_n0 sin(L (a - a0)).
+TEST(CurvedContact, BallRollsObliquelyOnShaft) {
+    for (const double w_n : {0.0, 8.0, -8.0}) {
+        Scene scene = exact_scene(0, 1e12, kGravity);
+        add_surface(scene, "rail", CapsuleShape{Vec3(-5, 0, 0), Vec3(5, 0, 0), 0.2});
+        const double a0 = 5 * M_PI / 180, D = 0.3, R = 0.1, u0 = 1.2;
+        const double L = std::sqrt(kSolid / (1 + kSolid));
+        const Vec3 n(0, std::sin(a0), std::cos(a0)), v(u0, 0, 0);
+        add_ball(scene, D * n, v).spin = n.cross(v) / R + w_n * n;
+        const SimulationResult r = run(scene, 1.2);
+        const Event leave = only(r.motion, EventKind::kLeave);
+        const Trajectory& ball = r.motion.balls[0];
+        double worst = 0, drift = 0, slip = 0, changed = 0;
+        for (int i = 0; i <= 200; ++i) {
+            const BallState s = ball.at(leave.time * i / 200 * (1 - 1e-12));
+            const Vec3 normal = Vec3(0, s.position.y(), s.position.z()).normalized();
+            const double a = std::atan2(normal.y(), normal.z()) - a0;
+            const double u = u0 * std::cos(L * a) - L * R * w_n * std::sin(L * a);
+            worst = std::max(worst, std::abs(s.velocity.x() - u));
+            changed = std::max(changed, std::abs(s.velocity.x() - u0));
+            drift = std::max(drift, std::abs(energy(scene, s) / energy(scene, ball.at(0)) - 1));
+            slip = std::max(slip, slip_of(scene.balls[0], s, normal).norm());
+        }
+        std::printf(
+            "w_n = %g: u changes by %.3g, off by %.2g m/s; energy off by %.2g, slip %.2g m/s\n",
+            w_n, changed, worst, drift, slip);
+        EXPECT_GT(changed, 0.02);
+        EXPECT_LT(worst, kBound);
+        EXPECT_LT(drift, kBound);
+        EXPECT_LT(slip, kBound);
+    }
+}
+
+// Down the top of a sloping shaft, rolling: g sin / (1 + k), then over the cap.
+TEST(CurvedContact, BallRollsDownShaftOverCap) {
+    const double slope = 0.1, R = 0.1, D = 0.25;
+    const Vec3 axis(std::cos(slope), 0, -std::sin(slope)), n(std::sin(slope), 0, std::cos(slope));
+    Scene scene = exact_scene(0, 1e12, kGravity);
+    add_surface(scene, "rail", CapsuleShape{Vec3::Zero(), 0.5 * axis, D - R});
+    add_ball(scene, D * n + 0.1 * axis);
+    const SimulationResult r = run(scene, 3);
+    const double a = kGravity * std::sin(slope) / (1 + kSolid), t = std::sqrt(2 * 0.4 / a);
+    const BallState end = r.motion.balls[0].at(t);
+    EXPECT_LT((end.position - D * n - 0.5 * axis).norm(), kBound);
+    EXPECT_NEAR(end.velocity.dot(axis), a * t, kBound);
+    // On the cap (1 + k) v^2 / 2 grows by g D (cos slope - cos).
+    const double v2 = a * t * a * t;
+    const double expected =
+        ((1 + kSolid) * v2 / (kGravity * D) + 2 * std::cos(slope)) / (3 + kSolid);
+    const Event leave = only(r.motion, EventKind::kLeave);
+    std::printf("cap: leaves at cos = %.12f, off by %.2g\n", leave.normal.z(),
+                leave.normal.z() - expected);
+    EXPECT_NEAR(leave.normal.z(), expected, kBound);
+    EXPECT_GT(leave.time, t);
+}
+
+// Up a sloping shaft and back, rolling: as in a field of g sin / (1 + k).
+TEST(CurvedContact, BallRollsUpShaftAndBack) {
+    const double slope = 0.2, R = 0.1, D = 0.15, v0 = 1.5;
+    const Vec3 axis(std::cos(slope), 0, std::sin(slope)), n(-std::sin(slope), 0, std::cos(slope));
+    Scene scene = exact_scene(0, 0.5, kGravity);
+    add_surface(scene, "rail", CapsuleShape{-3 * axis, 3 * axis, D - R});
+    const Vec3 v = v0 * axis;
+    add_ball(scene, D * n, v).spin = n.cross(v) / R;
+    const SimulationResult r = run(scene, 2.5);
+    const double a = -kGravity * std::sin(slope) / (1 + kSolid);
+    for (const double t : {0.5, -v0 / a, 1.8, 2.5}) {
+        const BallState s = r.motion.balls[0].at(t);
+        const Vec3 expected = D * n + (v0 * t + 0.5 * a * t * t) * axis;
+        EXPECT_LT((s.position - expected).norm(), kBound);
+        const Vec3 turn = n.cross(axis) * ((v0 * t + 0.5 * a * t * t) / R);
+        const Quat q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+        EXPECT_LT(2 * (q.conjugate() * s.orientation).vec().norm(), 1e-11);
+    }
+    EXPECT_TRUE(r.motion.events.empty());
+}
+
+// Where friction fails while it rolls obliquely, the slip begins out of the plane of motion.
+TEST(CurvedContact, ObliqueRollingBeginsToSlide) {
+    Scene scene = exact_scene(0, 0.3, kGravity);
+    add_surface(scene, "rail", CapsuleShape{Vec3(-5, 0, 0), Vec3(5, 0, 0), 0.2});
+    const double a0 = 4 * M_PI / 180, D = 0.3, R = 0.1;
+    const Vec3 n(0, std::sin(a0), std::cos(a0)), v(1, 0, 0);
+    add_ball(scene, D * n, v).spin = n.cross(v) / R + 6 * n;
+    const SimulationResult r = run(scene, 1.5);
+    const Event slide = only(r.motion, EventKind::kSlide),
+                leave = only(r.motion, EventKind::kLeave);
+    ASSERT_GT(slide.time, 0.05);
+    ASSERT_GT(leave.time, slide.time + 0.01);
+    const Trajectory& ball = r.motion.balls[0];
+    double before = energy(scene, ball.at(slide.time));
+    EXPECT_NEAR(before, energy(scene, ball.at(0)), kBound);
+    // Energy is lost by mu N |slip|: Simpson's rule over the phase.
+    const auto power = [&](double t) {
+        const BallState s = ball.at(t);
+        const Vec3 normal = Vec3(0, s.position.y(), s.position.z()).normalized();
+        const double across2 = s.velocity.squaredNorm() - std::pow(s.velocity.x(), 2);
+        const double push = kGravity * normal.z() - across2 / D;
+        return 0.3 * push * slip_of(scene.balls[0], s, normal).norm();
+    };
+    const int parts = 4000;
+    const double h = (leave.time - slide.time) * (1 - 1e-12) / parts;
+    double lost = 0;
+    for (int i = 0; i < parts; ++i)
+        lost += h / 6 *
+                (power(slide.time + i * h) + 4 * power(slide.time + (i + 0.5) * h) +
+                 power(slide.time + (i + 1) * h));
+    const double after = energy(scene, ball.at(leave.time));
+    std::printf("slides %.4f s to %.4f s, loses %.9g, work of friction %.9g m^2/s^2; %zu pieces\n",
+                slide.time, leave.time, before - after, lost, ball.pieces().size());
+    EXPECT_GT(before - after, 1e-4);
+    EXPECT_NEAR(before - after, lost, 1e-10);
 }
 
 }  // namespace

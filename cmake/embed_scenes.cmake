@@ -1,0 +1,11 @@
+# Writes scene files as raw strings behind embedded_scene(name).
+# (-DFILES arrives as a list; a raw string literal keeps quotes and comments as they are.)
+set(text "#include \"report/embedded_scenes.h\"\n\n#include <string_view>\n\nnamespace carom {\n\n")
+string(APPEND text "std::string_view embedded_scene(std::string_view name) {\n")
+foreach(file IN LISTS FILES)
+  get_filename_component(name "${file}" NAME_WE)
+  file(READ "${file}" body)
+  string(APPEND text "    if (name == \"${name}\") return R\"SCENE(${body})SCENE\";\n")
+endforeach()
+string(APPEND text "    return {};\n}\n\n}  // namespace carom\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Makes what docs/accuracy.md shows of the benches again: tables in the page, charts and CSVs in
+# docs/accuracy. Takes about 20 minutes of one processor; --coarse leaves out the smallest steps of
+# SimBenchmark (then about 10), which is no page to commit.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+finest=0
+case "${1:-}" in
+    "") ;;
+    --coarse) finest=1e-3 ;;
+    *) echo "update_accuracy.sh: unknown option '$1' (known: --coarse)" >&2; exit 2 ;;
+esac
+
+scripts/setup.sh --group film --group bench --preset bench
+made=$(mktemp -d)
+trap 'rm -rf "$made"' EXIT
+
+build/bench/bench/hard_cases --out "$made" | tee "$made/log"
+build/bench/bench/simbenchmark --finest "$finest" --out "$made"
+mkdir -p docs/accuracy
+cp "$made"/*.svg "$made"/*.csv docs/accuracy/
+echo "Made $(date -u +%Y-%m-%d) on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(g++ --version | head -n 1), $(head -n 1 "$made/log")." > "$made/environment.md"
+
+# Each block stands between two markers.
+for block in environment hard_cases hard_cases_failures simbenchmark_targets \
+             simbenchmark_bouncing simbenchmark_elastic_666 simbenchmark_666; do
+    awk -v begin="<!-- $block:begin -->" -v end="<!-- $block:end -->" -v file="$made/$block.md" '
+        $0 == end {skip = 0}
+        !skip {print}
+        $0 == begin {while ((getline line < file) > 0) print line; skip = 1}' docs/accuracy.md > "$made/accuracy.md"
+    cp "$made/accuracy.md" docs/accuracy.md
+done

@@ -1,0 +1,168 @@
+// carom fit: from measured drops to a coefficient of restitution and a material.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/exit_codes.h"
+#include "cli/standard_output.h"
+#include "core/failure.h"
+#include "media/output_file.h"
+#include "report/fit.h"
+#include "report/paper_data.h"
+#include "scene/scalar.h"
+
+namespace carom {
+
+namespace {
+
+/// Numbers with units arrive as text.
+struct FitCommandOptions {
+    std::vector<std::string> drops, rebounds, intervals;
+    std::string csv;
+    std::string rebound_to = "bottom";
+    std::string diameter;
+    std::string reading_error;
+    double constant = kPaperConstant;
+    double velocity = kFixedVelocity_m_s;
+    std::string name = "measured";
+    std::string plot;
+    bool overwrite = false;
+    bool json = false;
+};
+
+[[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
+
+/// One rebound for each drop, or several from one height.
+std::vector<MeasuredDrop> paired_drops(const FitCommandOptions& options) {
+    const std::size_t drops = options.drops.size(), rebounds = options.rebounds.size();
+    if (drops == 0) usage("--rebound needs the height of the --drop");
+    if (rebounds == 0) usage("--drop needs the height of the --rebound");
+    if (drops != 1 && drops != rebounds)
+        usage(
+            fmt::format("{} times --drop and {} times --rebound: give one rebound for each drop, "
+                        "or one drop for all",
+                        drops, rebounds));
+    std::vector<MeasuredDrop> result;
+    for (std::size_t i = 0; i < rebounds; ++i) {
+        const std::string& drop = options.drops[drops == 1 ? 0 : i];
+        const std::string where = fmt::format("--drop {} --rebound {}", drop, options.rebounds[i]);
+        result.push_back({parse_quantity(drop, Quantity::kLength, "--drop"),
+                          parse_quantity(options.rebounds[i], Quantity::kLength, "--rebound"),
+                          where});
+    }
+    return result;
+}
+
+Measurements measurements(const FitCommandOptions& options) {
+    const bool heights = !options.drops.empty() || !options.rebounds.empty();
+    const int sources =
+        (heights ? 1 : 0) + (options.csv.empty() ? 0 : 1) + (options.intervals.empty() ? 0 : 1);
+    if (sources != 1)
+        usage(sources == 0 ? "nothing measured: give --drop and --rebound, --csv or --intervals"
+                           : "give only one of --drop with --rebound, --csv and --intervals");
+    if (!options.csv.empty()) return read_measurements(options.csv);
+    Measurements result;
+    if (heights) result.drops = paired_drops(options);
+    for (const std::string& text : options.intervals)
+        result.intervals_s.push_back(parse_quantity(text, Quantity::kTime, "--intervals"));
+    return result;
+}
+
+double above_zero(const std::string& text, Quantity quantity, const std::string& option) {
+    const double value = parse_quantity(text, quantity, option);
+    if (!(value > 0)) usage(fmt::format("{} {}: it must be above 0", option, text));
+    return value;
+}
+
+FitOptions fit_options(const FitCommandOptions& options, const Measurements& measured) {
+    FitOptions result;
+    const bool times = measured.drops.empty();
+    const bool to_top = options.rebound_to == "top";
+    if (to_top && times) usage("--rebound-to top is about heights, not about intervals");
+    if (to_top && options.diameter.empty()) usage("--rebound-to top needs the ball's --diameter");
+    if (!to_top && !options.diameter.empty())
+        usage("--diameter is only needed with --rebound-to top");
+    if (to_top) {
+        result.rebound_to = ReboundTo::kTop;
+        result.diameter_m = above_zero(options.diameter, Quantity::kLength, "--diameter");
+    }
+    if (!options.reading_error.empty())
+        result.reading_error = above_zero(
+            options.reading_error, times ? Quantity::kTime : Quantity::kLength, "--reading-error");
+    return result;
+}
+
+int fit(const FitCommandOptions& options) {
+    if (!options.plot.empty()) {
+        if (!plot_format_of(options.plot))
+            usage(fmt::format("-o {}: a plot is a .svg, .png or .pdf file", options.plot));
+        require_writable(options.plot, options.overwrite);
+        require_gnuplot();
+    }
+    if (!is_name(options.name))
+        usage(
+            fmt::format("--name {}: a name is a letter or '_' and then letters, digits, '_' or "
+                        "'-', at most {} characters",
+                        options.name, kMaxNameLength));
+    const Measurements measured = measurements(options);
+    const RestitutionFit found = fit_restitution(measured, fit_options(options, measured));
+    const VirtualBodyLine line =
+        virtual_body_line(found.restitution, options.constant, options.velocity);
+    if (!options.plot.empty()) write_plot(fit_plot(found, line), options.plot);
+    write_standard_output(options.json ? fit_json(found, line, options.name)
+                                       : fit_text(found, line, options.name));
+    return kExitDone;
+}
+
+void add_sources(CLI::App& command, FitCommandOptions& options) {
+    const auto list = [&](const char* name, std::vector<std::string>& values, const char* what,
+                          const char* type) {
+        return command.add_option(name, values, what)
+            ->type_name(type)
+            ->take_all()
+            ->allow_extra_args(false);
+    };
+    list("--drop", options.drops, "Height of the ball's bottom, e.g. 1.8, 180cm (repeatable)", "H");
+    list("--rebound", options.rebounds, "Height that it came back to (repeatable)", "h");
+    command.add_option("--csv", options.csv, "Columns drop and rebound, or interval, with units")
+        ->type_name("FILE");
+    list("--intervals", options.intervals,
+         "Times between successive bounces in order, e.g. 0.86,0.73,0.62 or 860ms,730ms", "T,...")
+        ->delimiter(',');
+    command
+        .add_option("--rebound-to", options.rebound_to, "What of the ball a rebound is measured to")
+        ->check(CLI::IsMember({"bottom", "top"}));
+    command.add_option("--diameter", options.diameter, "Of the ball, for --rebound-to top")
+        ->type_name("D");
+    command
+        .add_option("--reading-error", options.reading_error,
+                    "Standard uncertainty of one reading: a height, or with intervals a time")
+        ->type_name("E");
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app, Run& run) {
+    auto* command = app.add_subcommand(
+        "fit", "From measured drops to a restitution, a line (x, v), a material");
+    auto options = std::make_shared<FitCommandOptions>();
+    add_sources(*command, *options);
+    constexpr double kMost = 1e9;
+    command->add_option("--constant", options->constant, "K of Eq. 7, 1/s")
+        ->check(CLI::Range(1e-9, kMost));
+    command
+        ->add_option("--velocity", options->velocity,
+                     "v of the suggested virtual body, m/s; x follows")
+        ->check(CLI::Range(1e-9, kMost));
+    command->add_option("--name", options->name, "Of the material in the snippet");
+    command->add_option("-o,--output", options->plot, "Plot of the line: a .svg, .png or .pdf file")
+        ->type_name("PLOT");
+    command->add_flag("-y,--overwrite", options->overwrite, "Replace the plot");
+    command->add_flag("--json", options->json, "Result as JSON");
+    command->callback([options, &run] { run = [options] { return fit(*options); }; });
+}
+
+}  // namespace carom

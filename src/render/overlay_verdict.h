@@ -1,0 +1,30 @@
+// The verdict on a drop test: a plate at the top of the last frames.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/overlay.h"
+#include "render/rebound_verdict.h"
+
+namespace carom {
+
+class OverlayVerdict {
+  public:
+    /// `scene` has a test. The plate stands in the middle of the top, or below what is `taken`.
+    OverlayVerdict(const Scene& scene, const Motion& motion, const ReboundVerdict& verdict,
+                   int width_px, int height_px, const std::vector<OverlayPainter::Rect>& taken,
+                   const std::string& font_family);
+
+    /// Shown in the film's last two seconds, but never before the rebound's top.
+    bool shown_at(double t) const { return t >= from_s_; }
+    void draw(Image& picture) const;
+    OverlayPainter::Rect rect() const { return rect_; }
+
+  private:
+    double from_s_ = 0;
+    OverlayPainter::Rect rect_;
+    Image plate_;
+};
+
+}  // namespace carom

@@ -1,0 +1,194 @@
+#include "report/gnuplot.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "core/failure.h"
+#include "media/output_file.h"
+#include "report/plot.h"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& message) { throw Failure(FailureKind::kRun, message); }
+
+/// A folder that goes with its content: the script and the plot stand in it until the plot is
+/// whole.
+class WorkFolder {
+  public:
+    WorkFolder() {
+        std::string name = (fs::temp_directory_path() / "carom-plot-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            fail(fmt::format("making a temporary folder {}: {}", name, std::strerror(errno)));
+        path_ = name;
+    }
+    ~WorkFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+    std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+  private:
+    fs::path path_;
+};
+
+/// Our own environment, but for what would change the plot.
+std::vector<std::string> environment() {
+    std::vector<std::string> variables = {"LC_ALL=C", "TZ=UTC0"};
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view text = *entry;
+        const bool ours = text.starts_with("LC_") || text.starts_with("TZ=") ||
+                          text.starts_with("LANG") || text.starts_with("GNUTERM") ||
+                          text.starts_with("GNUPLOT") || text.starts_with("SOURCE_DATE_EPOCH");
+        if (!ours) variables.emplace_back(text);
+    }
+    return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> result;
+    for (std::string& text : texts) result.push_back(text.data());
+    result.push_back(nullptr);
+    return result;
+}
+
+/// The finished program: its wait status, and what it wrote on standard error.
+struct Finished {
+    int status = 0;
+    std::string errors;
+};
+
+class SpawnSettings {
+  public:
+    SpawnSettings(int error_write, int error_read) {
+        posix_spawn_file_actions_init(&actions_);
+        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_adddup2(&actions_, error_write, STDERR_FILENO);
+        posix_spawn_file_actions_addclose(&actions_, error_read);
+        posix_spawn_file_actions_addclose(&actions_, error_write);
+        // Interrupts are blocked in our own threads; the child must feel them.
+        sigset_t none, pipe;
+        sigemptyset(&none);
+        sigemptyset(&pipe);
+        sigaddset(&pipe, SIGPIPE);
+        posix_spawnattr_init(&attributes_);
+        posix_spawnattr_setsigmask(&attributes_, &none);
+        posix_spawnattr_setsigdefault(&attributes_, &pipe);
+        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    }
+    ~SpawnSettings() {
+        posix_spawn_file_actions_destroy(&actions_);
+        posix_spawnattr_destroy(&attributes_);
+    }
+    SpawnSettings(const SpawnSettings&) = delete;
+    SpawnSettings& operator=(const SpawnSettings&) = delete;
+    const posix_spawn_file_actions_t* actions() const { return &actions_; }
+    const posix_spawnattr_t* attributes() const { return &attributes_; }
+
+  private:
+    posix_spawn_file_actions_t actions_{};
+    posix_spawnattr_t attributes_{};
+};
+
+Finished run(std::vector<std::string> arguments) {
+    std::array<int, 2> pipe{};
+    if (pipe2(pipe.data(), O_CLOEXEC) != 0)
+        fail(fmt::format("making a pipe to gnuplot: {}", std::strerror(errno)));
+    const SpawnSettings settings(pipe[1], pipe[0]);
+    std::vector<std::string> variables = environment();
+    pid_t child = 0;
+    const int error =
+        posix_spawnp(&child, arguments.front().c_str(), settings.actions(), settings.attributes(),
+                     pointers(arguments).data(), pointers(variables).data());
+    close(pipe[1]);
+    if (error != 0) {
+        close(pipe[0]);
+        if (error == ENOENT)
+            fail("gnuplot draws the plots and is not installed: apt-get install gnuplot-nox");
+        fail(fmt::format("starting gnuplot: {}", std::strerror(error)));
+    }
+    Finished finished;
+    std::array<char, 4096> block{};
+    for (ssize_t n = 0; (n = read(pipe[0], block.data(), block.size())) != 0;) {
+        if (n < 0 && errno != EINTR) break;
+        if (n > 0) finished.errors.append(block.data(), static_cast<std::size_t>(n));
+    }
+    close(pipe[0]);
+    while (waitpid(child, &finished.status, 0) < 0 && errno == EINTR) {
+    }
+    return finished;
+}
+
+/// The bytes of a plot that do not depend on the day, nor on the fonts of who looks at it.
+std::string settled(std::string bytes, PlotFormat format) {
+    if (format == PlotFormat::kPdf) {
+        // cairo writes the time of day: (D:YYYYMMDDhhmmssZ). The length must stay, because a PDF
+        // counts its bytes. The date is the paper's.
+        static constexpr std::string_view kKey = "/CreationDate (D:", kDate = "20120601000000";
+        const std::size_t at = bytes.find(kKey);
+        if (at != std::string::npos && at + kKey.size() + kDate.size() <= bytes.size())
+            bytes.replace(at + kKey.size(), kDate.size(), kDate);
+    } else if (format == PlotFormat::kSvg) {
+        static constexpr std::string_view kOne = "font-family=\"Inter\"",
+                                          kMany =
+                                              "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
+        for (std::size_t at = 0; (at = bytes.find(kOne, at)) != std::string::npos;
+             at += kMany.size())
+            bytes.replace(at, kOne.size(), kMany);
+    }
+    return bytes;
+}
+
+std::string read_whole(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+void run_gnuplot(const std::string& script, const std::string& attempt) {
+    const WorkFolder folder;
+    const std::string path = folder.file("script.gp");
+    write_text_file(path, script, Durability::kUnsynced);
+    const Finished finished = run({"gnuplot", "-d", path});
+    if (WIFEXITED(finished.status) && WEXITSTATUS(finished.status) == 0) return;
+    if (WIFSIGNALED(finished.status))
+        fail(fmt::format("{}: gnuplot was ended by signal {}", attempt, WTERMSIG(finished.status)));
+    fail(fmt::format("{}: gnuplot failed: {}", attempt, finished.errors));
+}
+
+void write_plot(const Plot& plot, const std::string& path) {
+    const std::optional<PlotFormat> format = plot_format_of(path);
+    if (!format)
+        throw Failure(FailureKind::kInput,
+                      fmt::format("{}: a plot is a .svg, .png or .pdf file", path));
+    const WorkFolder folder;
+    const std::string drawn = folder.file("plot");
+    run_gnuplot(gnuplot_script(plot, *format, drawn), "drawing " + path);
+    const std::string bytes = settled(read_whole(drawn), *format);
+    // gnuplot reports some errors of its terminals only as text, and writes nothing.
+    if (bytes.empty()) fail(fmt::format("drawing {}: gnuplot wrote nothing", path));
+    write_text_file(path, bytes, Durability::kUnsynced);
+}
+
+void require_gnuplot() { run({"gnuplot", "--version"}); }
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+// Velocities of many bodies in many contacts, by sweeps over the contacts.
+#pragma once
+
+#include <vector>
+
+#include "core/types.h"
+
+namespace carom {
+
+/// A ball as a crowd sees it. Its spin stands as the speed of its rim, s = R w, so that the
+/// velocity of its material point at a contact with the normal n (towards the ball) is v + n x s.
+struct CrowdBody {
+    Vec3 velocity = Vec3::Zero();  ///< m/s
+    Vec3 rim = Vec3::Zero();       ///< R w, m/s
+    double inverse_mass = 0;       ///< 1/kg; 0 for what does not move
+    double inverse_spin = 0;       ///< R^2 / I, 1/kg
+    int changed = 0;               ///< when a contact last changed it, for the sweeps
+};
+
+/// One contact: what it wants, and the impulse that it has given so far.
+struct CrowdRow {
+    int ball = -1;
+    int other = -1;                  ///< -1 for a surface
+    Vec3 normal = Vec3::UnitZ();     ///< unit, towards `ball`
+    double friction = 0;             ///< Coulomb's mu
+    double target = 0;               ///< least speed along the normal afterwards, m/s
+    double push = 0;                 ///< along the normal, N s, >= 0
+    Vec3 tangential = Vec3::Zero();  ///< N s
+    // Set by the sweeps.
+    double normal_mass = 0, tangential_mass = 0;  ///< kg
+    int relaxed = 0;
+};
+
+/// How long to sweep.
+struct CrowdSweeps {
+    int most = 12;
+    double still = 1e-6;  ///< m/s: smaller changes of a body do not call on its other contacts
+};
+
+/// Projected Gauss-Seidel over the impulses with Coulomb's true cone (J. J. Moreau, "Unilateral
+/// contact and dry friction in finite freedom dynamics", 1988), from the impulses that the rows
+/// hold at the start. A contact is only looked at again when one of its bodies has changed since.
+void sweep_crowd(std::vector<CrowdBody>& bodies, std::vector<CrowdRow>& rows,
+                 const CrowdSweeps& sweeps);
+
+/// Velocity of `ball`'s material point minus the other's at the contact [m/s].
+inline Vec3 relative_velocity(const CrowdRow& row, const std::vector<CrowdBody>& bodies) {
+    const CrowdBody& a = bodies[static_cast<std::size_t>(row.ball)];
+    if (row.other < 0) return a.velocity + row.normal.cross(a.rim);
+    const CrowdBody& b = bodies[static_cast<std::size_t>(row.other)];
+    return a.velocity - b.velocity + row.normal.cross(a.rim + b.rim);
+}
+
+/// The part of it along the normal, which spin has no say in.
+inline double normal_speed(const CrowdRow& row, const std::vector<CrowdBody>& bodies) {
+    const Vec3& v = bodies[static_cast<std::size_t>(row.ball)].velocity;
+    if (row.other < 0) return v.dot(row.normal);
+    return (v - bodies[static_cast<std::size_t>(row.other)].velocity).dot(row.normal);
+}
+
+}  // namespace carom

@@ -1,0 +1,206 @@
+#include "sim/curved_impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/bernstein.h"
+
+namespace carom {
+
+namespace {
+
+/// A crossing of one feature's gap counts if the whole body is as near then, up to the rounding of
+/// a polynomial of high degree in places of this size.
+constexpr double kRounding = 1e-13;
+
+/// Rates of a gap below this fraction of the speed are rounding of a zero.
+constexpr double kStill = 2e-14;
+
+/// Features whose gap is below this fraction of their size are those in contact.
+constexpr double kContact = 1e-9;
+
+LongPolynomial plane_gap(const CurvedPath& p, const Vec3& normal, double offset) {
+    LongPolynomial gap;
+    gap.degree = p.c.size() - 1;
+    for (std::size_t i = 0; i < p.c.size(); ++i) gap.c[i] = normal.dot(p.c[i]);
+    gap.c[0] -= offset;
+    return gap;
+}
+
+/// |across (p - origin)|^2 - d^2
+LongPolynomial round_gap(const CurvedPath& p, const Vec3& origin, const Mat3& across, double d) {
+    std::array<Vec3, 9> q;
+    for (std::size_t i = 0; i < q.size(); ++i) q[i] = across * p.c[i];
+    q[0] = across * (p.c[0] - origin);
+    LongPolynomial gap;
+    gap.degree = 2 * (q.size() - 1);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+        gap.c[2 * i] += q[i].squaredNorm();
+        for (std::size_t j = i + 1; j < q.size(); ++j) gap.c[i + j] += 2 * q[i].dot(q[j]);
+    }
+    // The difference of squares without their rounding.
+    const double near = q[0].norm();
+    gap.c[0] = (near - d) * (near + d);
+    return gap;
+}
+
+/// The first touch of all features of one body.
+class FirstTouch {
+  public:
+    FirstTouch(const CurvedPath& path, bool touching) : path_(path), touching_(touching) {}
+
+    /// `rate_scale`: how the gap's rate goes with the distance's. `touched`: whether the whole body
+    /// is met there.
+    template <class Touched>
+    void offer(LongPolynomial gap, double size, double rate_scale, Touched&& touched) {
+        if (result_.state == ImpactState::kCapped) return;
+        if (touching_ && std::abs(gap.c[0]) <= kContact * size * rate_scale) {
+            in_contact_ = true;
+            gap = gap.divided_by_u();
+            if (gap.c[0] <= kStill * rate_scale * path_.reach()) {
+                gap = gap.divided_by_u();
+                if (gap.c[0] < 0) return;
+            }
+            all_pressed_ = false;
+        }
+        DownwardCrossings crossings(gap);
+        for (double u = 0; crossings.next(u);) {
+            const double s = u * path_.seconds;
+            if (result_.state == ImpactState::kHit && s >= result_.s) return;
+            if (!touched(u)) continue;
+            result_ = {ImpactState::kHit, s};
+            return;
+        }
+        if (crossings.capped()) result_ = {ImpactState::kCapped, 0};
+    }
+    /// At a border of two features one that lets go is enough.
+    TimeOfImpact result() const {
+        if (in_contact_ && all_pressed_) return {ImpactState::kPressed, 0};
+        return result_;
+    }
+
+  private:
+    const CurvedPath& path_;
+    bool touching_;
+    bool in_contact_ = false;
+    bool all_pressed_ = true;
+    TimeOfImpact result_;
+};
+
+Mat3 across_axis(const Vec3& axis) { return Mat3::Identity() - axis * axis.transpose(); }
+
+template <class Touched>
+void offer_box(FirstTouch& first, const CurvedPath& p, double radius, const BoxShape& box,
+               const Touched& touched) {
+    const Mat3 axes = box.orientation.toRotationMatrix();
+    for (int i = 0; i < 3; ++i)
+        for (const double side : {-1.0, 1.0}) {
+            const Vec3 normal = side * axes.col(i);
+            const double offset = normal.dot(box.center) + 0.5 * box.size[i] + radius;
+            first.offer(plane_gap(p, normal, offset), radius, 1, touched);
+        }
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3 at = box.center;
+        for (int i = 0; i < 3; ++i)
+            at += ((corner >> i & 1) != 0 ? 0.5 : -0.5) * box.size[i] * axes.col(i);
+        first.offer(round_gap(p, at, Mat3::Identity(), radius), radius, 2 * radius, touched);
+        // The edges that start at this corner and run along +axis.
+        for (int i = 0; i < 3; ++i)
+            if ((corner >> i & 1) == 0)
+                first.offer(round_gap(p, at, across_axis(axes.col(i)), radius), radius, 2 * radius,
+                            touched);
+    }
+}
+
+}  // namespace
+
+Vec3 CurvedPath::at(double u) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = c.size(); i-- > 0;) sum = c[i] + u * sum;
+    return sum;
+}
+
+CurvedPath CurvedPath::relative_to(const CurvedPath& other) const {
+    CurvedPath path = *this;
+    for (std::size_t i = 0; i < c.size(); ++i) path.c[i] -= other.c[i];
+    return path;
+}
+
+double CurvedPath::reach() const {
+    double sum = 0;
+    for (std::size_t i = 1; i < c.size(); ++i) sum += c[i].norm();
+    return sum;
+}
+
+CurvedPath curved_path(const Piece& piece, double from, double seconds) {
+    CurvedPath path;
+    path.seconds = seconds;
+    auto& c = path.c;
+    if (!piece.curve) {
+        c[0] = piece.position_at(from);
+        c[1] = seconds * piece.velocity_at(from);
+        c[2] = (0.5 * seconds * seconds) * piece.acceleration;
+        return path;
+    }
+    // In z = s / h, then shifted to z0 (W. G. Horner) and scaled.
+    const double h = piece.curve->seconds;
+    c[0] = piece.position;
+    c[1] = h * piece.velocity;
+    c[2] = (0.5 * h * h) * piece.acceleration;
+    for (std::size_t i = 0; i < 6; ++i) c[i + 3] = piece.curve->position[i];
+    const double z0 = (from - piece.start) / h, scale = seconds / h;
+    for (std::size_t i = 0; z0 != 0 && i < c.size(); ++i)
+        for (std::size_t j = c.size() - 1; j-- > i;) c[j] += z0 * c[j + 1];
+    double power = 1;
+    for (Vec3& term : c) {
+        term *= power;
+        power *= scale;
+    }
+    return path;
+}
+
+TimeOfImpact curved_impact_with_sphere(const CurvedPath& path, double distance, bool touching) {
+    if (!touching && path.c[0].norm() - path.reach() > distance) return {};
+    FirstTouch first(path, touching);
+    first.offer(round_gap(path, Vec3::Zero(), Mat3::Identity(), distance), distance, 2 * distance,
+                [](double) { return true; });
+    return first.result();
+}
+
+TimeOfImpact curved_impact_with_surface(const CurvedPath& ball, double radius,
+                                        const SurfaceShape& shape, bool touching) {
+    if (!touching && nearest_on_surface(ball.c[0], radius, shape).gap > ball.reach()) return {};
+    FirstTouch first(ball, touching);
+    const auto always = [](double) { return true; };
+    const auto touched = [&](double u) {
+        const Vec3 center = ball.at(u);
+        const double scale =
+            ball.c[0].cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() + ball.reach() + radius;
+        return nearest_on_surface(center, radius, shape).gap <= kRounding * scale;
+    };
+    if (const auto* plane = std::get_if<PlaneShape>(&shape)) {
+        first.offer(plane_gap(ball, plane->normal, plane->offset_m + radius), radius, 1, always);
+    } else if (const auto* box = std::get_if<BoxShape>(&shape)) {
+        offer_box(first, ball, radius, *box, touched);
+    } else if (const auto* capsule = std::get_if<CapsuleShape>(&shape)) {
+        const double d = radius + capsule->radius;
+        const Mat3 across = across_axis((capsule->to - capsule->from).normalized());
+        first.offer(round_gap(ball, capsule->from, across, d), d, 2 * d, touched);
+        for (const Vec3& end : {capsule->from, capsule->to})
+            first.offer(round_gap(ball, end, Mat3::Identity(), d), d, 2 * d, touched);
+    } else {
+        const auto& sphere = std::get<SphereShape>(shape);
+        const double d = radius + sphere.radius;
+        first.offer(round_gap(ball, sphere.center, Mat3::Identity(), d), d, 2 * d, always);
+    }
+    return first.result();
+}
+
+double seconds_above(const CurvedPath& path, const Vec3& direction, double offset) {
+    if (direction.dot(path.c[0]) - offset > path.reach()) return path.seconds;
+    DownwardCrossings crossings(plane_gap(path, direction, offset));
+    double u = 1;
+    return crossings.next(u) ? u * path.seconds : path.seconds;
+}
+
+}  // namespace carom
