@@ -27,10 +27,10 @@ Measures peaks_and_times(const Motion& motion, double h, double e, double radius
     Measures m;
     for (int n = 1; n <= 6; ++n) {
         const auto i = static_cast<std::size_t>(n - 1);
-        m.push_back(relative(fmt::format("peak {}, m", n), at_or_nan(tops, i) - radius,
-                             std::pow(e, 2 * n) * h));
-        m.push_back(
-            relative(fmt::format("impact {}, s", n), at_or_nan(times, i), impact_time(h, e, n)));
+        m.push_back(relative(fmt::format("drop of {:g} m: peak {}, m", h, n),
+                             at_or_nan(tops, i) - radius, std::pow(e, 2 * n) * h));
+        m.push_back(relative(fmt::format("drop of {:g} m: impact {}, s", h, n), at_or_nan(times, i),
+                             impact_time(h, e, n)));
     }
     return m;
 }
@@ -104,7 +104,9 @@ Case lossless() {
         const std::vector<double> tops = top_heights(motion, 0, kUp);
         double worst = tops.size() < 999 ? NAN : 0;
         for (const double top : tops) worst = std::max(worst, std::abs(top - kRadius - 1));
-        return Measures{scaled("peak drift in 1000 bounces, m", worst, 0, 1),
+        Measure drift = scaled("peak drift in 1000 bounces, m", worst, 0, 1);
+        drift.how = fmt::format("loses bounces: {} peaks of 999", tops.size());
+        return Measures{drift,
                         relative("impact 1000, s", at_or_nan(bounce_times(motion, 0, kUp), 999),
                                  1999 * std::sqrt(2 / kG))};
     };

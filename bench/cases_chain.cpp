@@ -34,9 +34,13 @@ Run cradle(double e, double gap, std::size_t in,
 Run lossless_cradle(double gap, std::size_t in) {
     return cradle(1, gap, in, [=](const Scene&, const Motion& motion) {
         Measures m;
-        for (std::size_t i = 0; i < 5; ++i)
+        for (std::size_t i = 0; i < 5; ++i) {
+            const double speed = speed_x(motion, i, motion.duration);
             m.push_back(scaled(fmt::format("{} in, gap {:g} m: speed of ball {}", in, gap, i),
-                               speed_x(motion, i, motion.duration), i + in >= 5 ? 1 : 0, 1));
+                               speed, i + in >= 5 ? 1 : 0, 1));
+            m.back().how = fmt::format("spreads the impulse: {} in, ball {} leaves at {:.2g} m/s",
+                                       in, i, speed);
+        }
         return m;
     });
 }
@@ -128,9 +132,12 @@ Run collapse_in_a_line(double e) {
         const double t = motion.duration;
         const double a = speed_x(motion, 0, t), b = speed_x(motion, 1, t),
                      c = speed_x(motion, 2, t);
+        Measure apart = scaled(fmt::format("e = {}: relative speed, m/s", e),
+                               std::max(std::abs(a - b), std::abs(b - c)), 0, 1);
+        apart.how =
+            fmt::format("does not collapse: {:.2g} m/s between balls after 10 s", apart.value);
         return Measures{scaled("momentum, kg m/s", momentum(scene, motion, t).x(), 0, 2, 1e-12),
-                        scaled(fmt::format("e = {}: relative speed, m/s", e),
-                               std::max(std::abs(a - b), std::abs(b - c)), 0, 1)};
+                        apart};
     };
     return run;
 }
@@ -140,9 +147,11 @@ Run collapse_on_a_wall(double e) {
     run.overrides = {set("materials.clay.restitution", e), set("pairs[0].restitution", e)};
     run.measure = [=](const Scene&, const Motion& motion) {
         Measures m;
-        for (std::size_t i = 0; i < 2; ++i)
-            m.push_back(scaled(fmt::format("e = {}: speed of ball {}, m/s", e, i),
-                               speed_x(motion, i, motion.duration), 0, 1.5));
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double speed = speed_x(motion, i, motion.duration);
+            m.push_back(scaled(fmt::format("e = {}: speed of ball {}, m/s", e, i), speed, 0, 1.5));
+            m.back().how = fmt::format("does not collapse: {:.2g} m/s after 10 s", speed);
+        }
         return m;
     };
     return run;

@@ -85,6 +85,10 @@ Run rack() {
 
 Run thin_plate() {
     Run run;
+    run.prepare = [](Scene& scene) {
+        for (std::size_t i = 0; i < scene.balls.size(); ++i)
+            scene.balls[i].position.z() += 1e-3 * static_cast<double>(i);
+    };
     run.measure = [](const Scene& scene, const Motion& motion) {
         const double v = 1000, e = 0.9, half = 0.0005;
         double passed = 0, worst_speed = NAN, worst_time = NAN;

@@ -91,8 +91,8 @@ std::string Cell::failure() const {
     const Outcome& o = worst();
     if (o.holds()) return "";
     if (o.kind != Outcome::Kind::kDone) return first_sentence(o.what);
-    if (!std::isfinite(o.error)) return o.what;
     if (!o.how.empty()) return o.how;
+    if (!std::isfinite(o.error)) return o.what;
     return o.error > 0.01 ? o.what : "";
 }
 
@@ -167,7 +167,7 @@ void write_error_plot(const std::vector<Row>& rows, const std::vector<Engine>& e
     plot.title = "Hard cases: error against cost, one point per case";
     plot.x = {"CPU seconds per simulated second", true};
     plot.y = {"largest error, relative", true, kLeast / 3, 3 * kMost};
-    plot.legend = Legend::kBottomRight;
+    plot.legend = Legend::kTopLeft;
     for (std::size_t i = 0; i < engines.size(); ++i) {
         Series series;
         series.title = engines[i].name;

@@ -71,8 +71,8 @@ void judge(const Measures& measures, Shared& out) {
                          [&](const Measure& a, const Measure& b) { return ratio(a) < ratio(b); });
     out.error = worst->error();
     out.limit = worst->limit;
-    std::string words = fmt::format("{}: {:.10g}", worst->what, worst->value);
-    if (worst->reference != 0) words += fmt::format(" instead of {:.10g}", worst->reference);
+    std::string words = fmt::format("{}: {:.3g}", worst->what, worst->value);
+    if (worst->reference != 0) words += fmt::format(" instead of {:.3g}", worst->reference);
     if (!std::isfinite(worst->value)) words = worst->what + ": there is none";
     if (!worst->how.empty() && out.error > std::max(0.01, out.limit))
         copy_text(worst->how, out.how);
@@ -110,7 +110,7 @@ void simulate_and_judge(const Run& run, const Engine& engine, const Scene& scene
     }
     judge(measures, out);
     // A better word than "off" where the motion is wrong as a whole.
-    if (out.error > out.limit && out.how[0] == '\0')
+    if (std::isfinite(out.error) && out.error > out.limit && out.how[0] == '\0')
         copy_text(diagnosis(scene, result.motion), out.how);
 }
 
@@ -161,7 +161,7 @@ Outcome outcome_of(const Shared& shared, int status, double cpu_limit_s) {
     out.kind = cut ? Outcome::Kind::kCut : Outcome::Kind::kCrashed;
     out.error = INFINITY;
     out.cpu_s = cpu_limit_s;
-    out.what = cut ? fmt::format("cut after {:g} s of CPU time at t = {:.3g} s", cpu_limit_s,
+    out.what = cut ? fmt::format("cut after {:g} s of CPU time, past t = {:.3g} s", cpu_limit_s,
                                  out.simulated_s)
                    : fmt::format("died of signal {}", WIFSIGNALED(status) ? WTERMSIG(status) : 0);
     return out;

@@ -48,9 +48,7 @@ void ExactWorld::build_grid(double t) {
     grid.emplace(positions, radii);
 }
 
-Vec3 ExactWorld::position(int i, double t) const {
-    return ball(i).piece.position_at(t);
-}
+Vec3 ExactWorld::position(int i, double t) const { return ball(i).piece.position_at(t); }
 
 Velocities ExactWorld::velocities(int i, double t) const {
     const Piece& p = ball(i).piece;
