@@ -37,8 +37,7 @@ std::string answers(const std::string& before, const Answer& answer) {
     }
     std::string result;
     for (const auto& [names, text] : groups)
-        result +=
-            fmt::format("{}{}{} {}", result.empty() ? "" : ", ", before, listed(names), text);
+        result += fmt::format("{}{}{} {}", result.empty() ? "" : ", ", before, listed(names), text);
     return result;
 }
 
@@ -67,6 +66,11 @@ std::string trust(const AccuracyReport& report) {
             " The motion is chaotic: rounding alone moves a ball by 1 % of the smallest radius "
             "after {:.4g} s; errors are measured up to there.",
             s.trusted_until_s);
+    if (!report.closed_form && report.runs.front().steps > 0)
+        text += fmt::format(
+            " Contacts that act on each other are stepped by exact too ({} steps): its own error "
+            "there is not in these numbers.",
+            report.runs.front().steps);
     if (s.lyapunov_time_s)
         text += fmt::format(" Small differences grow by e every {:.2g} s (Lyapunov time).",
                             *s.lyapunov_time_s);

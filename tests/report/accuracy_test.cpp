@@ -186,6 +186,20 @@ TEST(Accuracy, ChaosIsNamedWithTheTimeUpToWhichItCanBeTrusted) {
     EXPECT_LE(row(report, Method::kExact).error->position_m, 0.01 * 0.1);
 }
 
+// A ball in a groove has two contacts, which exact steps: its row is no error bound, and says so.
+TEST(Accuracy, SteppedContactsAreNamed) {
+    Scene scene = drop(0.1, 0.5, 1);
+    scene.surfaces.clear();
+    for (const double side : {1.0, -1.0})
+        scene.surfaces.push_back({"side", PlaneShape{Vec3(side, 0, 1).normalized(), 0}, 0, 0, {}});
+    scene.balls[0].position = {0, 0, 0.3};
+    scene.balls[0].velocity = {0, 0.5, 0};
+    const std::string text = accuracy_summary(measured(scene, {1e-3}));
+    EXPECT_NE(std::string::npos, text.find("are stepped by exact too")) << text;
+    EXPECT_EQ(std::string::npos,
+              accuracy_summary(measured(drop(1, 0.8, 2), {1e-3})).find("stepped"));
+}
+
 TEST(Accuracy, WhatTakesTooLongIsLeftOutAndSaysSo) {
     const AccuracyReport report = measured(drop(1, 0.8, 2), {1e-3, 1e-9}, 0.5);
     const AccuracyRun& left_out = row(report, Method::kFixed, 1e-9);
