@@ -20,6 +20,10 @@ constexpr double kSameInstant = 4 * std::numeric_limits<double>::epsilon();
 /// Events without progress in time, before the run is given up. A rack of balls needs hundreds.
 constexpr int kMostAtOneInstant = 100'000;
 
+/// Impacts with a larger coefficient do not make a crowd: a dense gas of balls that lose hardly
+/// anything is followed impact by impact, so that its energy is kept.
+constexpr double kMostOfCrowd = 0.9;
+
 /// Events between two looks at the stop token.
 constexpr std::int64_t kEventsPerLook = 1024;
 
@@ -213,8 +217,10 @@ void ExactRun::resolve(const Contact& seed, double now) {
         world_.ball(ball).rounding_speed = cluster_.rounding_speed();
     }
     settle_cluster(cluster_, now);
+    const bool lossy = std::any_of(impacts_.begin(), impacts_.end(),
+                                   [](const Contact& c) { return c.restitution <= kMostOfCrowd; });
     for (const int ball : cluster_.balls()) {
-        note_impact(ball, now);
+        if (lossy) note_impact(ball, now);
         predict(ball, now);
     }
 }

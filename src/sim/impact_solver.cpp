@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/failure.h"
+#include "sim/contact_rows.h"
 #include "sim/impact_sweeps.h"
 #include "sim/ode_bodies.h"
 #include "sim/ode_messages.h"
@@ -64,7 +65,8 @@ struct ImpactSolver::World {
     std::vector<dJointFeedback> feedback;
 };
 
-ImpactSolver::ImpactSolver() : world_(std::make_unique<World>()) {
+ImpactSolver::ImpactSolver(SingleContacts single)
+    : single_(single), world_(std::make_unique<World>()) {
     start_ode();
     world_->world.reset(dWorldCreate());
     world_->contacts.reset(dJointGroupCreate(0));
@@ -121,14 +123,15 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
     return messages.empty();
 }
 
-void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
-                         double time) {
-    for (Contact& c : contacts) {
-        const Vec3 relative = relative_velocity(
-            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
-        c.approach_speed = -relative.dot(c.normal);
-        c.slip = tangential_part(relative, c.normal);
-    }
+void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, Contact& c) const {
+    ContactRow row(bodies, c, c.restitution * std::max(c.approach_speed, 0.0));
+    row.relax();
+    c.impulse = row.normal;
+    c.tangential_impulse = row.tangential.norm();
+}
+
+void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+                              double time) {
     before_ = bodies;
     const bool many = contacts.size() > kMostForOde;
     if (many || !solve_with_ode(bodies, contacts, time) ||
@@ -137,6 +140,20 @@ void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& 
         solve_by_sweeps(bodies, contacts);
         ++sweeps_;
     }
+}
+
+void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+                         double time) {
+    for (Contact& c : contacts) {
+        const Vec3 relative = relative_velocity(
+            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
+        c.approach_speed = -relative.dot(c.normal);
+        c.slip = tangential_part(relative, c.normal);
+    }
+    if (contacts.size() == 1 && single_ == SingleContacts::kClosedForm)
+        solve_single(bodies, contacts.front());
+    else
+        solve_many(bodies, contacts, time);
     for (Contact& c : contacts) {
         const Vec3 relative = relative_velocity(
             c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));

@@ -1,7 +1,9 @@
-// Impacts of one instant, solved by ODE's contact joints in a world of its own: no gravity, no
-// position correction, no constraint force mixing, so that one dWorldStep is Newton's and Coulomb's
-// law to rounding (checked in tests/sim/impact_solver_test.cpp). Where ODE cannot solve several
-// contacts at once, sweeps do (impact_sweeps.h).
+// Impacts of one instant. One contact has a closed form (contact_rows.h): both arms lie along its
+// normal, so that Newton's law and Coulomb's are independent. Several are solved by ODE's contact
+// joints in a world of its own: no gravity, no position correction, no constraint force mixing, so
+// that one dWorldStep is both laws to rounding. Where ODE cannot solve them at once, sweeps do
+// (impact_sweeps.h). ODE's answer to one contact is the closed form to rounding, at several times
+// the cost (tests/sim/impact_solver_test.cpp holds the two against each other).
 #pragma once
 
 #include <cstdint>
@@ -13,9 +15,11 @@
 
 namespace carom {
 
+enum class SingleContacts { kClosedForm, kOde };
+
 class ImpactSolver {
   public:
-    ImpactSolver();
+    explicit ImpactSolver(SingleContacts single = SingleContacts::kClosedForm);
     ~ImpactSolver();
     ImpactSolver(const ImpactSolver&) = delete;
     ImpactSolver& operator=(const ImpactSolver&) = delete;
@@ -31,10 +35,13 @@ class ImpactSolver {
 
   private:
     struct World;
+    void solve_single(std::vector<ImpactBody>& bodies, Contact& contact) const;
+    void solve_many(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts, double time);
     void add_joint(const Contact& contact, std::size_t index);
     bool solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
                         double time);
 
+    SingleContacts single_;
     std::unique_ptr<World> world_;
     std::vector<ImpactBody> before_;
     std::int64_t sweeps_ = 0;

@@ -1,4 +1,5 @@
 // Many balls: the grid changes the cost, never the motion.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -173,6 +174,34 @@ TEST(NeighbourGrid, FindsEveryPairInReach) {
         if (spread < 5) {
             EXPECT_GT(pairs, 0);
         }
+    }
+}
+
+// Lossless balls that fall as a block and meet many at a time: no step may take their energy.
+TEST(ExactScale, LosslessBlockKeepsItsEnergy) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> jitter(0, 0.001);
+        Scene scene = exact_scene(1, 0, kGravity);
+        add_plane(scene);
+        for (int i = 0; i < 216; ++i)
+            add_ball(scene,
+                     Vec3(0.21 * (i % 6) + jitter(random), 0.21 * (i / 6 % 6) + jitter(random),
+                          1.101 + 0.21 * (i / 36) + jitter(random)));
+        const SimulationResult result = run(scene, 2);
+        const auto energy = [&](double t) {
+            double sum = kinetic_energy(scene, result.motion, t);
+            for (std::size_t b = 0; b < scene.balls.size(); ++b)
+                sum += scene.balls[b].mass * 9.81 * result.motion.balls[b].at(t).position.z();
+            return sum;
+        };
+        double worst = 0;
+        for (int k = 1; k <= 200; ++k)
+            worst = std::max(worst, relative_error(energy(0.01 * k), energy(0)));
+        fmt::print("block of 216, seed {}: {} impacts, energy within {:.1e} (bound 1e-12)\n", seed,
+                   result.report.impacts, worst);
+        EXPECT_GT(result.report.impacts, 1000);
+        EXPECT_LE(worst, 1e-12);
     }
 }
 

@@ -1,5 +1,5 @@
-// ODE's contact solver as a solver of impacts, against Newton and Coulomb in closed form, and the
-// sweeps that stand in for it against ODE.
+// The solver of impacts against Newton and Coulomb in closed form: a single contact, ODE's contact
+// solver, and the sweeps that stand in for it.
 #include "sim/impact_solver.h"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,15 @@ Contact between(int a, int b, const std::vector<ImpactBody>& bodies, double e) {
     return c;
 }
 
-TEST(ImpactSolver, FrictionAtEveryAzimuth) {
-    ImpactSolver solver;
+class SingleContact : public ::testing::TestWithParam<SingleContacts> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, SingleContact,
+                         ::testing::Values(SingleContacts::kClosedForm, SingleContacts::kOde),
+                         [](const auto& solver) {
+                             return solver.param == SingleContacts::kOde ? "ode" : "closed_form";
+                         });
+
+TEST_P(SingleContact, FrictionAtEveryAzimuth) {
+    ImpactSolver solver(GetParam());
     double worst = 0;
     for (const double k : {0.4, 2.0 / 3})
         for (const double mu : {0.05, 0.3})
@@ -65,6 +72,42 @@ TEST(ImpactSolver, FrictionAtEveryAzimuth) {
             }
     std::printf("friction at every azimuth within %.3g\n", worst);
     EXPECT_LE(worst, 1e-13);
+}
+
+// Any speeds, spins, masses, coefficients: one contact's closed form is what ODE makes of it.
+TEST(ImpactSolver, OneContactIsAsOdeSolvesIt) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto vector = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+    ImpactSolver closed(SingleContacts::kClosedForm), ode(SingleContacts::kOde);
+    double worst = 0;
+    int slid = 0, gripped = 0;
+    for (int i = 0; i < 500; ++i) {
+        std::vector<ImpactBody> bodies = {ball(vector(), 3 * vector(), 0.5 + i % 7),
+                                          ball(vector(), 3 * vector(), 2, 2.0 / 3)};
+        bodies[1].position = bodies[0].position + 2 * kRadius * vector().normalized();
+        for (ImpactBody& b : bodies) b.velocities.spin = 20 * vector();
+        std::vector<Contact> contacts = {
+            i % 2 == 0 ? between(0, 1, bodies, 0.5 + 0.5 * uniform(random))
+                       : on_surface(0, vector().normalized(), 0.5 + 0.5 * uniform(random))};
+        contacts[0].friction = i % 3 == 0 ? 0 : 0.5 + 0.5 * uniform(random);
+        std::vector<ImpactBody> same = bodies;
+        std::vector<Contact> same_contacts = contacts;
+        closed.solve(bodies, contacts, 0);
+        ode.solve(same, same_contacts, 0);
+        for (std::size_t b = 0; b < 2; ++b) {
+            const Velocities &x = bodies[b].velocities, &y = same[b].velocities;
+            worst = std::max(worst, (x.linear - y.linear).norm());
+            worst = std::max(worst, kRadius * (x.spin - y.spin).norm());
+        }
+        worst = std::max(worst, std::abs(contacts[0].impulse - same_contacts[0].impulse));
+        if (contacts[0].approach_speed > 0 && contacts[0].friction > 0)
+            ++(contacts[0].slip_after.norm() > 1e-9 ? slid : gripped);
+    }
+    std::printf("one contact against ODE: %.3g m/s (%d slid, %d gripped)\n", worst, slid, gripped);
+    EXPECT_LE(worst, 1e-13);
+    EXPECT_GT(slid, 20);
+    EXPECT_GT(gripped, 20);
 }
 
 TEST(ImpactSolver, Grooves) {
