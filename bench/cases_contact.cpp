@@ -77,11 +77,10 @@ Run pile() {
             outside += std::abs(p.x()) > 0.35 || std::abs(p.y()) > 0.35 || p.z() < 0;
         }
         const double radius = scene.balls[0].radius;
-        return Measures{
-            scaled("energy above its running minimum, of the start", rise, 0, start, 1e-6),
-            scaled("balls outside", outside, 0, 1, 0),
-            scaled("depth, of the radius", deepest_of_samples(scene, motion, 100), 0, radius,
-                   0.01)};
+        Measure depth = scaled("depth, m", deepest_of_samples(scene, motion, 100), 0, radius, 0.01);
+        depth.how = fmt::format("sinks in by {:.2g} of the radius", depth.value / radius);
+        return Measures{scaled("energy above its running minimum, J", rise, 0, start, 1e-6),
+                        scaled("balls outside", outside, 0, 1, 0), depth};
     };
     return run;
 }

@@ -71,8 +71,7 @@ std::string markdown(const std::vector<Point>& points, const std::string& task) 
         "|---|---|---|---|---|---|---|\n";
     for (const Point& p : points) {
         if (p.task != task) continue;
-        const Published* theirs = published_at(task, p.engine.substr(0, 3), p.step);
-        if (p.engine == "Bullet") theirs = published_at(task, "Bullet", p.step);
+        const Published* theirs = published_at(task, p.engine, p.step);
         text +=
             fmt::format("| {} | {} | {} | {:.3g} | {:.3g} | {} | {} |\n", p.engine,
                         p.step > 0 ? fmt::format("{:g}", p.step) : "events", error_text(p), p.cpu_s,
@@ -102,8 +101,21 @@ void add_series(Plot& plot, const std::string& title, SeriesStyle style,
 int color_of(const std::string& engine) {
     const std::vector<std::string> order = {"exact",  "exact, sampled", "ODE world", "ODE quick",
                                             "Bullet", "RaiSim",         "DART",      "MuJoCo"};
-    const std::string name = engine == "ODE" ? "ODE world" : engine;
-    return static_cast<int>(std::find(order.begin(), order.end(), name) - order.begin());
+    return static_cast<int>(std::find(order.begin(), order.end(), engine) - order.begin());
+}
+
+/// For the legend on the left, and for the points at the top.
+void leave_room(Plot& plot) {
+    double least = 1e300, most = 0, top = 0;
+    for (const Series& series : plot.series)
+        for (std::size_t i = 0; i < series.x.size(); ++i) {
+            least = std::min(least, series.x[i]);
+            most = std::max(most, series.x[i]);
+            top = std::max(top, series.y[i]);
+        }
+    if (plot.series.empty()) return;
+    plot.x.min = least * std::pow(least / most, 0.5);
+    plot.y.max = 30 * top;
 }
 
 Plot chart(const std::vector<Point>& points, const std::string& task) {
@@ -113,6 +125,7 @@ Plot chart(const std::vector<Point>& points, const std::string& task) {
     plot.x = {"real-time factor, simulated seconds per CPU second", true};
     plot.y = {"1 / error, " + unit, true};
     plot.legend = Legend::kTopLeft;
+    plot.width_px = 1000;
     plot.height_px = 600;
     double duration = 0;
     for (const std::string& engine : names_of(points, task)) {
@@ -126,7 +139,8 @@ Plot chart(const std::vector<Point>& points, const std::string& task) {
     }
     std::vector<std::string> engines;
     for (const Published& p : published())
-        if (task == p.task && std::find(engines.begin(), engines.end(), p.engine) == engines.end())
+        if (task == p.task && std::string("ODE quick") != p.engine &&  // on the other one's line
+            std::find(engines.begin(), engines.end(), p.engine) == engines.end())
             engines.push_back(p.engine);
     for (const std::string& engine : engines) {
         std::vector<std::array<double, 2>> data;
@@ -136,6 +150,7 @@ Plot chart(const std::vector<Point>& points, const std::string& task) {
         add_series(plot, engine + ", published 2018", SeriesStyle::kDashedLine, data,
                    color_of(engine));
     }
+    leave_room(plot);
     return plot;
 }
 

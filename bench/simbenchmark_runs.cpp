@@ -41,7 +41,7 @@ double median(std::vector<double> values) {
 }
 
 Point run_stepped(const MakeTask& make, const std::string& engine, const MakeWorld& world,
-                  double step, int seeds) {
+                  double step, int seeds, bool timed) {
     const Task task = make(1);
     Point point;
     point.task = task.name;
@@ -61,6 +61,7 @@ Point run_stepped(const MakeTask& make, const std::string& engine, const MakeWor
     }
     point.error = median(errors);
     point.worst = *std::max_element(errors.begin(), errors.end());
+    if (!timed) return point;
     const auto steps = static_cast<long>(point.duration / step);
     point.cpu_s = median_cpu([&] {
         const auto stepped = world(task.scene, step);
@@ -69,7 +70,7 @@ Point run_stepped(const MakeTask& make, const std::string& engine, const MakeWor
     return point;
 }
 
-std::vector<Point> run_exact(const MakeTask& make, double sampling, int seeds) {
+std::vector<Point> run_exact(const MakeTask& make, double sampling, int seeds, bool timed) {
     const Task task = make(1);
     Point events;
     events.task = task.name;
@@ -97,6 +98,7 @@ std::vector<Point> run_exact(const MakeTask& make, double sampling, int seeds) {
     Point sampled = events;
     sampled.engine = "exact, sampled";
     sampled.step = sampling;
+    if (!timed) return {events};
     events.cpu_s = median_cpu([&] { simulate(task.scene); });
     volatile double sink = 0;
     sampled.cpu_s = median_cpu([&] { sink = sample(task, simulate(task.scene).motion, sampling); });

@@ -29,13 +29,13 @@ struct Point {
 using MakeTask = std::function<Task(std::uint64_t seed)>;
 using MakeWorld = std::function<std::unique_ptr<SteppedWorld>(const Scene&, double step)>;
 
-/// Passes with `seeds` seeds for the error, then at least one for the time.
+/// Passes with `seeds` seeds for the error, then, if `timed`, at least one for the time.
 Point run_stepped(const MakeTask& make, const std::string& engine, const MakeWorld& world,
-                  double step, int seeds);
+                  double step, int seeds, bool timed = true);
 
 /// carom's `exact`: the same errors from samples at `sampling`; two points, without and with the
 /// cost of those samples.
-std::vector<Point> run_exact(const MakeTask& make, double sampling, int seeds);
+std::vector<Point> run_exact(const MakeTask& make, double sampling, int seeds, bool timed = true);
 
 double median(std::vector<double> values);
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/failure.h"
+#include "scene/film_clock.h"
 
 namespace carom {
 
@@ -58,7 +59,7 @@ void add_range(std::string_view part, std::int64_t count, const std::string& opt
 }  // namespace
 
 std::int64_t frame_count(const Film& film, double duration) {
-    const double seconds = (duration - film.start) / film.speed;
+    const double seconds = film_time(film, duration);
     const double frames = std::ceil(seconds * film.fps.numerator / film.fps.denominator - 1e-9);
     if (!(frames >= 1))
         usage(fmt::format("the film is empty: it starts at {} s and the motion ends at {} s",
@@ -68,8 +69,8 @@ std::int64_t frame_count(const Film& film, double duration) {
 }
 
 double frame_time(const Film& film, std::int64_t frame) {
-    return film.start +
-           film.speed * (static_cast<double>(frame) * film.fps.denominator / film.fps.numerator);
+    return motion_time(film,
+                       static_cast<double>(frame) * film.fps.denominator / film.fps.numerator);
 }
 
 std::vector<std::int64_t> all_frames(std::int64_t count) {

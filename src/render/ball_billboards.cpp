@@ -23,10 +23,11 @@ LookStyle ball_style(LookStyle style) {
     return style == LookStyle::kChecker || style == LookStyle::kGrid ? LookStyle::kPlain : style;
 }
 
-GlProgram make_program(const Gl& gl, LookStyle style, bool occluded) {
+GlProgram make_program(const Gl& gl, LookStyle style, const View& view, bool occluded) {
     GlProgram::Sources sources;
     sources.name = fmt::format("ball, style {}", static_cast<int>(style));
-    std::vector<std::string> defines = {fmt::format("STYLE {}", static_cast<int>(style))};
+    std::vector<std::string> defines = view_defines(view);
+    defines.push_back(fmt::format("STYLE {}", static_cast<int>(style)));
     if (occluded) defines.push_back("OCCLUDED");
     sources.vertex = assemble_shader(defines, {"ball_vertex"});
     sources.fragment = assemble_shader(defines, {"ball_markings", "ball_fragment"});
@@ -66,7 +67,7 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
         const LookStyle style =
             ball_style(scene.looks.at(static_cast<std::size_t>(ball.look)).style);
         if (programs_.count(style) != 0) continue;
-        GlProgram program = make_program(gl, style, occluded);
+        GlProgram program = make_program(gl, style, view, occluded);
         set_common_uniforms(gl, program, view, lights);
         gl.Uniform2f(program.uniform("u_size"), static_cast<float>(view.width_px()),
                      static_cast<float>(view.height_px()));
@@ -81,6 +82,13 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
         gl.VertexAttribDivisor(i, 1);
     }
     gl.check("preparing the balls");
+}
+
+void BallBillboards::set_view(const View& view, const Lights& lights) {
+    view_ = view;
+    body_shade_ = BodyShade(*scene_, view, lights);
+    to_light_ = view_direction(view, lights.to_light);
+    for (const auto& [style, program] : programs_) set_common_uniforms(*gl_, program, view, lights);
 }
 
 LookStyle BallBillboards::style_of(const BallInView& ball) const {
@@ -130,9 +138,7 @@ void BallBillboards::append_instance(const BallInView& ball, const BallShade& sh
     // difference of two rays instead of with large coordinates.
     const bool ahead = outline.is_ellipse;
     const double depth = ahead ? ball.center.z() : 0.0;
-    const Vec2 reference = ahead ? Vec2(0.5 * size + Vec2(ball.center.x(), ball.center.y()) /
-                                                         (ball.center.z() * pixel_width(view_)))
-                                 : Vec2(0.5 * size);
+    const Vec2 reference = ahead ? view_pixel(view_, ball.center) : Vec2(0.5 * size);
     const Vec3 rest = ahead ? Vec3(Vec3::Zero()) : ball.center;
     const Look& look = scene_->looks[static_cast<std::size_t>(ball.look)];
 

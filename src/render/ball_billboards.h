@@ -19,6 +19,9 @@ class BallBillboards {
     BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
                    bool occluded);
 
+    /// Another view of the same size and kind.
+    void set_view(const View& view, const Lights& lights);
+
     /// Draws the balls into the framebuffer that is bound, sorted as balls_at() gives them.
     void draw(const std::vector<BallInView>& balls, const StaticPicture& background);
 

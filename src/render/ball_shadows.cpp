@@ -8,12 +8,12 @@ namespace carom {
 
 namespace {
 
-GlProgram make_program(const Gl& gl) {
+GlProgram make_program(const Gl& gl, const View& view) {
     GlProgram::Sources sources;
     sources.name = "ball shadows";
     sources.vertex =
         assemble_shader({fmt::format("TILE_PX {}.0", ShadowTiles::kTilePx)}, {"tile_vertex"});
-    sources.fragment = assemble_shader({}, {"ball_shadow_fragment"});
+    sources.fragment = assemble_shader(view_defines(view), {"ball_shadow_fragment"});
     sources.attributes = {"a_tile"};
     sources.outputs = {"out_factor"};
     return GlProgram(gl, sources);
@@ -25,7 +25,7 @@ BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, con
                          std::vector<TileBound> seen)
     : gl_(&gl),
       tiles_(scene, view, lights, std::move(seen)),
-      program_(make_program(gl)),
+      program_(make_program(gl, view)),
       vertex_array_(gl),
       tile_buffer_(gl),
       caster_array_(gl) {
@@ -40,6 +40,12 @@ BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, con
     gl.VertexAttribDivisor(0, 1);
     gl.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
     gl.check("preparing the shadows");
+}
+
+void BallShadows::set_view(const Scene& scene, const View& view, const Lights& lights,
+                           std::vector<TileBound> seen) {
+    tiles_ = ShadowTiles(scene, view, lights, std::move(seen));
+    set_common_uniforms(*gl_, program_, view, lights);
 }
 
 void BallShadows::draw(const std::vector<BallInView>& balls, const StaticPicture& background) {

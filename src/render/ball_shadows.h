@@ -15,6 +15,10 @@ class BallShadows {
     BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
                 std::vector<TileBound> seen = {});
 
+    /// Another view of the same size and kind.
+    void set_view(const Scene& scene, const View& view, const Lights& lights,
+                  std::vector<TileBound> seen = {});
+
     /// Darkens the copy of the static picture in the framebuffer that is bound. All casters of a
     /// pixel are combined before the colour is changed, so that shadows that overlap are not darker
     /// than the light that is left.

@@ -23,6 +23,10 @@ Outline project_sphere(const Vec3& center, double radius, const View& view) {
     // Nearer than this to the eye's plane, in radii, the ellipse grows beyond all bounds.
     constexpr double kClearance = 1.02;
     Outline outline;
+    if (view.orthographic()) {
+        const double radius_px = radius * view.pixels_per_metre(center.z());
+        return {true, view_pixel(view, center), Vec2(radius_px, 0), Vec2(0, radius_px)};
+    }
     if (center.z() <= kClearance * radius) return outline;
 
     // The cone of tangents cuts the plane z = 1 in an ellipse whose major axis points away from the
@@ -72,8 +76,9 @@ std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scen
             ball.instant = static_cast<int>(k);
         }
     }
-    const auto power = [](const BallInView& b) {
-        return b.center.squaredNorm() - b.radius * b.radius;
+    // Parallel rays are those of an eye at infinity, whose power goes with the depth alone.
+    const auto power = [&](const BallInView& b) {
+        return view.orthographic() ? b.center.z() : b.center.squaredNorm() - b.radius * b.radius;
     };
     std::stable_sort(balls.begin(), balls.end(),
                      [&](const BallInView& a, const BallInView& b) { return power(a) > power(b); });
@@ -81,8 +86,8 @@ std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scen
 }
 
 bool may_be_seen(const BallInView& ball, const View& view) {
-    const bool around_eye = ball.center.norm() <= ball.radius;
-    const bool behind = ball.center.z() + ball.radius <= 0;
+    const bool around_eye = !view.orthographic() && ball.center.norm() <= ball.radius;
+    const bool behind = ball.center.z() + (view.orthographic() ? 0 : ball.radius) <= 0;
     if (around_eye || behind) return false;
     const Outline outline = project_sphere(ball.center, ball.radius, view);
     if (!outline.is_ellipse) return true;

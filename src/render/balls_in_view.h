@@ -30,7 +30,8 @@ struct Outline {
 Outline project_sphere(const Vec3& center, double radius, const View& view);
 
 /// All balls at `t`, in the order in which they must be drawn: |c|^2 - r^2 descending orders
-/// disjoint spheres exactly (of two, the one with the smaller power of the eye is never behind).
+/// disjoint spheres exactly (of two, the one with the smaller power of the eye is never behind);
+/// under parallel rays the depth of the centre does.
 std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& motion,
                                  const View& view);
 

@@ -23,7 +23,10 @@ Vec3 unit_or(const Vec3& v, const Vec3& fallback) {
 }  // namespace
 
 View::View(const Camera& camera, int width_px, int height_px)
-    : eye_(camera.from), width_px_(width_px), height_px_(height_px) {
+    : eye_(camera.from),
+      orthographic_(camera.orthographic_m.has_value()),
+      width_px_(width_px),
+      height_px_(height_px) {
     CAROM_CHECK(width_px, >, 0);
     CAROM_CHECK(height_px, >, 0);
     forward_ = unit_or(camera.to - camera.from, Vec3::UnitY());
@@ -38,6 +41,10 @@ View::View(const Camera& camera, int width_px, int height_px)
     up_ = right_.cross(forward_);
     constexpr double kHalfDegree = std::numbers::pi / 360;
     tan_half_fov_y_ = std::tan(camera.fov_deg * kHalfDegree);
+    if (orthographic_) {
+        metre_px_ = height_px_ / *camera.orthographic_m;
+        tan_half_fov_y_ = 0.5 * *camera.orthographic_m / (camera.to - camera.from).norm();
+    }
 }
 
 View::Projected View::project(const Vec3& world) const {
@@ -49,7 +56,7 @@ View::Projected View::project(const Vec3& world) const {
 }
 
 double View::pixels_per_metre(double depth_m) const {
-    return 0.5 * height_px_ / (tan_half_fov_y_ * depth_m);
+    return orthographic_ ? metre_px_ : 0.5 * height_px_ / (tan_half_fov_y_ * depth_m);
 }
 
 }  // namespace carom

@@ -23,17 +23,22 @@ class View {
     };
     Projected project(const Vec3& world) const;
     double pixels_per_metre(double depth_m) const;
+    /// Parallel rays: a metre is as many pixels at any depth.
+    bool orthographic() const { return orthographic_; }
 
     const Vec3& eye() const { return eye_; }
     const Vec3& right() const { return right_; }      ///< unit
     const Vec3& up() const { return up_; }            ///< unit
     const Vec3& forward() const { return forward_; }  ///< unit
+    /// Half the picture's height over the distance; under parallel rays that of `to`.
     double tan_half_fov_y() const { return tan_half_fov_y_; }
     int width_px() const { return width_px_; }
     int height_px() const { return height_px_; }
 
   private:
     Vec3 eye_, right_, up_, forward_;
+    bool orthographic_;
+    double metre_px_ = 0;  ///< of parallel rays
     double tan_half_fov_y_;
     int width_px_, height_px_;
 };

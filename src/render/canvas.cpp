@@ -73,15 +73,7 @@ void lay_over(const Image& source, int x, int y, Image& target) {
     for (int row = first_y; row < last_y; ++row) {
         const std::uint8_t* from = source.row(row) + 4 * static_cast<std::ptrdiff_t>(first_x);
         std::uint8_t* to = target.row(y + row) + 4 * static_cast<std::ptrdiff_t>(x + first_x);
-        for (int i = first_x; i < last_x; ++i, from += 4, to += 4) {
-            if (from[3] == 0) continue;
-            const unsigned rest = 255u - from[3];
-            for (int c = 0; c < 4; ++c) {
-                // Division by 255, rounded to nearest, exact for 0 ... 65025.
-                const unsigned product = to[c] * rest + 128;
-                to[c] = static_cast<std::uint8_t>(from[c] + ((product + (product >> 8)) >> 8));
-            }
-        }
+        for (int i = first_x; i < last_x; ++i, from += 4, to += 4) lay_pixel_over(from, to);
     }
 }
 

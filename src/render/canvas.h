@@ -1,6 +1,7 @@
 // Drawing with cairo straight onto an Image, and laying small pictures over larger ones.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "core/image.h"
@@ -35,6 +36,17 @@ class Canvas {
     };
     std::unique_ptr<_cairo, Destroy> context_;
 };
+
+/// One premultiplied pixel over another.
+inline void lay_pixel_over(const std::uint8_t* from, std::uint8_t* to) {
+    if (from[3] == 0) return;
+    const unsigned rest = 255u - from[3];
+    for (int c = 0; c < 4; ++c) {
+        // Division by 255, rounded to nearest, exact for 0 ... 65025.
+        const unsigned product = to[c] * rest + 128;
+        to[c] = static_cast<std::uint8_t>(from[c] + ((product + (product >> 8)) >> 8));
+    }
+}
 
 /// `source` over `target` with its top left corner at (x, y); what hangs out is cut off.
 void lay_over(const Image& source, int x, int y, Image& target);

@@ -151,7 +151,7 @@ TextRun Font::lay_out(std::string_view utf8) const {
 }
 
 void Font::draw(Canvas& canvas, const TextRun& run, double x, double y, const Ink& ink,
-                double halo_px) const {
+                double halo_px, const Ink& halo) const {
     std::vector<cairo_glyph_t> glyphs;
     for (const TextRun::Glyph& glyph : run.glyphs)
         glyphs.push_back({glyph.index, x + glyph.x_px, y});
@@ -164,7 +164,7 @@ void Font::draw(Canvas& canvas, const TextRun& run, double x, double y, const In
     // A faint wide stroke below a firmer narrow one fades softly into any background.
     for (const auto& [width, alpha] : {std::pair(2.0, 0.35), std::pair(1.2, 0.70)}) {
         if (halo_px <= 0) break;
-        canvas.use({1, 1, 1, alpha});
+        canvas.use({halo.r, halo.g, halo.b, alpha});
         cairo_set_line_width(c, width * halo_px);
         cairo_stroke_preserve(c);
     }

@@ -44,7 +44,7 @@ class Font {
 
     /// Fills the run with its base line starting at (x, y); a halo of `halo_px` first if any.
     void draw(Canvas& canvas, const TextRun& run, double x, double y, const Ink& ink,
-              double halo_px = 0) const;
+              double halo_px = 0, const Ink& halo = {1, 1, 1, 1}) const;
 
   private:
     struct DestroyFace {

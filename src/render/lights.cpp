@@ -12,7 +12,17 @@ Vec3 view_point(const View& view, const Vec3& world) {
     return view_direction(view, world - view.eye());
 }
 
-double pixel_width(const View& view) { return 2.0 * view.tan_half_fov_y() / view.height_px(); }
+double pixel_width(const View& view) { return 1.0 / view.pixels_per_metre(1); }
+
+Vec2 view_pixel(const View& view, const Vec3& point) {
+    return 0.5 * Vec2(view.width_px(), view.height_px()) +
+           view.pixels_per_metre(point.z()) * point.head<2>();
+}
+
+std::vector<std::string> view_defines(const View& view) {
+    if (view.orthographic()) return {"ORTHOGRAPHIC"};
+    return {};
+}
 
 Lights choose_lights(const View& view) {
     const Vec3 up = Vec3::UnitZ();

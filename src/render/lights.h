@@ -1,6 +1,9 @@
 // View space and the light: what all shaders are told about the camera.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/types.h"
 #include "render/camera.h"
 #include "render/gl.h"
@@ -12,8 +15,14 @@ namespace carom {
 Vec3 view_direction(const View& view, const Vec3& world);
 Vec3 view_point(const View& view, const Vec3& world);
 
-/// Width of a pixel on the plane one metre before the eye.
+/// Width of a pixel on the plane one metre before the eye, or everywhere under parallel rays, m.
 double pixel_width(const View& view);
+
+/// Where a point of view space, before the eye, is seen: pixels.
+Vec2 view_pixel(const View& view, const Vec3& point);
+
+/// What common.glsl must be told before it is compiled for this view.
+std::vector<std::string> view_defines(const View& view);
 
 /// One directional key light with the size of a studio lamp, plus the sky (common.glsl).
 struct Lights {

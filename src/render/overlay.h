@@ -1,6 +1,7 @@
-// What is written and drawn over the picture with cairo: ruler, clock, labels, trails.
+// What is written and drawn over the picture with cairo: ruler, clock, text, labels, trails, ...
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -27,19 +28,33 @@ class OverlayPainter {
     struct Rect {
         int x = 0, y = 0, width = 0, height = 0;
         bool empty() const { return width <= 0 || height <= 0; }
+        int right() const { return x + width; }
+        int bottom() const { return y + height; }
+        bool overlaps(const Rect& other) const {
+            return x < other.right() && other.x < right() && y < other.bottom() &&
+                   other.y < bottom();
+        }
+        /// The smallest rectangle that holds both.
+        Rect joined(const Rect& other) const {
+            if (empty()) return other;
+            if (other.empty()) return *this;
+            const int left = std::min(x, other.x), top = std::min(y, other.y);
+            return {left, top, std::max(right(), other.right()) - left,
+                    std::max(bottom(), other.bottom()) - top};
+        }
     };
 
     /// The ruler: does not change with time, so it is drawn at each call and not kept. Empty
     /// picture if nothing is to be drawn.
     Image static_under_layer() const;
 
-    /// The trails at t, premultiplied on transparent, kept up to date in one picture of the film's
-    /// size; returns the rectangle that changed since the last call.
+    /// The trails and marks of peaks at t, premultiplied on transparent, kept up to date in one
+    /// picture of the film's size; returns the rectangle that changed since the last call.
     bool has_moving_under_layer() const;
     Rect update_moving_under_layer(double t);
     const Image& moving_under_layer() const;
 
-    /// Clock, verdict and labels on the finished picture.
+    /// Clock, text, plot, arrows, verdict and labels on the finished picture.
     void draw_over(double t, Image& picture) const;
 
   private:

@@ -20,8 +20,8 @@ int whole(double px) { return static_cast<int>(std::ceil(px)); }
 }  // namespace
 
 OverlayClock::OverlayClock(const ClockOptions& options, double longest_s, int width_px,
-                           int height_px, const std::string& font_family)
-    : digits_(options.digits), picture_width_px_(width_px) {
+                           int height_px, const std::string& font_family, const Palette& palette)
+    : palette_(palette), digits_(options.digits), picture_width_px_(width_px) {
     const Font font(font_family, letters_px(kClockPx, height_px));
     const double size = font.size_px();
     const Corner corner = options.corner;
@@ -47,7 +47,7 @@ OverlayClock::OverlayClock(const ClockOptions& options, double longest_s, int wi
     const auto cell = [&](const TextRun& run, int cell_width) {
         Image picture(cell_width, height_px_);
         Canvas canvas(picture);
-        font.draw(canvas, run, 0.5 * (cell_width - run.width_px), base_px_, kSlate);
+        font.draw(canvas, run, 0.5 * (cell_width - run.width_px), base_px_, palette_.ink);
         canvas.finish();
         return picture;
     };
@@ -63,13 +63,13 @@ OverlayClock::Plate OverlayClock::make_plate(const Font& font, int number_px) co
                 Image(width, height_px_)};
     Canvas canvas(plate.picture);
     canvas.round_rect(0.5, 0.5, width - 1, height_px_ - 1, 0.36 * font.size_px());
-    canvas.use({kPaper.r, kPaper.g, kPaper.b, 0.74});
+    canvas.use(with_alpha(palette_.paper, 0.74));
     cairo_fill_preserve(canvas.context());
-    canvas.use({kSlate.r, kSlate.g, kSlate.b, 0.14});
+    canvas.use(with_alpha(palette_.ink, 0.14));
     cairo_set_line_width(canvas.context(), 1);
     cairo_stroke(canvas.context());
-    font.draw(canvas, before, side_px_, base_px_, kSlate);
-    font.draw(canvas, after, number_px_ + number_px, base_px_, kSlate);
+    font.draw(canvas, before, side_px_, base_px_, palette_.ink);
+    font.draw(canvas, after, number_px_ + number_px, base_px_, palette_.ink);
     canvas.finish();
     return plate;
 }

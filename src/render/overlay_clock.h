@@ -7,6 +7,7 @@
 
 #include "render/font.h"
 #include "render/overlay.h"
+#include "render/overlay_style.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -17,7 +18,7 @@ class OverlayClock {
   public:
     /// `longest_s` is the last instant that it will show.
     OverlayClock(const ClockOptions& options, double longest_s, int width_px, int height_px,
-                 const std::string& font_family);
+                 const std::string& font_family, const Palette& palette = {});
 
     void draw(double t, Image& picture) const;
     /// Where the widest plate of the film stands.
@@ -33,6 +34,7 @@ class OverlayClock {
     };
     Plate make_plate(const Font& font, int number_px) const;
 
+    Palette palette_;
     int digits_ = 2;
     int picture_width_px_ = 0;
     bool at_left_ = true;

@@ -104,7 +104,7 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelWish>
 
 OverlayLabels::OverlayLabels(const Scene& scene, const Motion& motion, const View& view,
                              const std::string& font_family)
-    : scene_(scene), motion_(motion), view_(view) {
+    : scene_(scene), motion_(motion), view_(view), palette_(palette_of(scene.overlay.theme)) {
     const double size = letters_px(scene.overlay.labels->size_px, view.height_px());
     const Font font(font_family, size);
     const double halo = 0.2 * size;
@@ -117,7 +117,7 @@ OverlayLabels::OverlayLabels(const Scene& scene, const Motion& motion, const Vie
                       static_cast<int>(height));
         Canvas canvas(picture);
         const double base = std::round(height - border - font.descent_px());
-        font.draw(canvas, run, border, base, kSlate, halo);
+        font.draw(canvas, run, border, base, palette_.ink, halo, palette_.paper);
         canvas.finish();
         pictures_.push_back(std::move(picture));
     }
@@ -244,7 +244,7 @@ void OverlayLabels::draw(double t, const std::vector<Rect>& obstacles, Image& pi
         cairo_line_to(canvas->context(), x, y);
     }
     if (canvas) {
-        canvas->use({kSlate.r, kSlate.g, kSlate.b, 0.55});
+        canvas->use(with_alpha(palette_.ink, 0.55));
         cairo_set_line_width(canvas->context(), std::max(1.0, overlay_px(1, view_.height_px())));
         cairo_stroke(canvas->context());
         canvas->finish();

@@ -9,6 +9,7 @@
 #include "motion/motion.h"
 #include "render/font.h"
 #include "render/overlay.h"
+#include "render/overlay_style.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -64,6 +65,7 @@ class OverlayLabels {
     const Scene& scene_;
     const Motion& motion_;
     View view_;
+    Palette palette_;
     double gap_px_ = 0;            ///< between a ball and its label
     std::vector<Image> pictures_;  ///< per ball, with halo
 };

@@ -156,7 +156,8 @@ std::optional<RulerLayout> lay_out_ruler(const RulerStaff& staff, const View& vi
 namespace {
 
 /// The marked part: a stripe from the staff's far edge to where the balls are.
-void draw_band(Canvas& canvas, const RulerLayout& layout, double away, double width, double unit) {
+void draw_band(Canvas& canvas, const RulerLayout& layout, double away, double width, double unit,
+               const Ink& good) {
     if (!layout.band_px) return;
     constexpr double kTowardsBalls = 110;  // px at 720
     const Vec2 low = (*layout.band_px)[0], high = (*layout.band_px)[1];
@@ -167,20 +168,21 @@ void draw_band(Canvas& canvas, const RulerLayout& layout, double away, double wi
     cairo_line_to(c, high.x() + far, high.y());
     cairo_line_to(c, high.x() + near, high.y());
     cairo_close_path(c);
-    canvas.use({kGood.r, kGood.g, kGood.b, 0.30});
+    canvas.use(with_alpha(good, 0.30));
     cairo_fill(c);
     for (const Vec2& end : {low, high}) {
         cairo_move_to(c, end.x() + near, end.y());
         cairo_line_to(c, end.x() + far, end.y());
     }
-    canvas.use({kGood.r, kGood.g, kGood.b, 0.9});
+    canvas.use(with_alpha(good, 0.9));
     cairo_set_line_width(c, std::max(1.2 * unit, 1.0));
     cairo_stroke(c);
 }
 
 }  // namespace
 
-Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font) {
+Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font,
+                 const Palette& palette) {
     Image picture(view.width_px(), view.height_px());
     Canvas canvas(picture);
     cairo_t* c = canvas.context();
@@ -198,21 +200,21 @@ Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font) 
         cairo_close_path(c);
     };
     band(-0.5 * line, width);
-    canvas.use({1, 1, 1, 0.82});
+    canvas.use(with_alpha(palette.paper, 0.82));
     cairo_fill_preserve(c);
-    canvas.use({kSlate.r, kSlate.g, kSlate.b, 0.30});
+    canvas.use(with_alpha(palette.ink, 0.30));
     cairo_set_line_width(c, std::max(0.8 * unit, 0.7));
     cairo_stroke(c);
-    canvas.use({kSlate.r, kSlate.g, kSlate.b, 0.9});
+    canvas.use(with_alpha(palette.ink, 0.9));
     band(-0.5 * line, 0.5 * line);
     cairo_fill(c);
 
-    draw_band(canvas, layout, away, width, unit);
+    draw_band(canvas, layout, away, width, unit, palette.good);
 
     for (const RulerTick& tick : layout.ticks) {
         const bool major = tick.rank == TickRank::kMajor;
         const double share = major ? 1.0 : tick.rank == TickRank::kMedium ? 0.62 : 0.36;
-        canvas.use({kSlate.r, kSlate.g, kSlate.b, major ? 1.0 : 0.75});
+        canvas.use(with_alpha(palette.ink, major ? 1.0 : 0.75));
         cairo_set_line_width(c, major ? line : std::max(0.9 * unit, 0.8));
         cairo_move_to(c, tick.px.x(), tick.px.y());
         cairo_line_to(c, tick.px.x() + away * share * width, tick.px.y());
@@ -225,11 +227,11 @@ Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font) 
         const TextRun text = font.lay_out(tick.label);
         const double near_edge = tick.px.x() + away * (width + 6 * unit);
         font.draw(canvas, text, away > 0 ? near_edge : near_edge - text.width_px,
-                  tick.px.y() + 0.5 * font.cap_height_px(), kSlate, halo);
+                  tick.px.y() + 0.5 * font.cap_height_px(), palette.ink, halo, palette.paper);
     }
     const TextRun metres = font.lay_out("m");
     font.draw(canvas, metres, layout.high_px.x() + away * 0.5 * width - 0.5 * metres.width_px,
-              layout.high_px.y() - 0.6 * font.size_px(), kSlate, halo);
+              layout.high_px.y() - 0.6 * font.size_px(), palette.ink, halo, palette.paper);
     canvas.finish();
     return picture;
 }

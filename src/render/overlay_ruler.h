@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "render/font.h"
 #include "render/framing.h"
+#include "render/overlay_style.h"
 
 namespace carom {
 
@@ -42,7 +43,8 @@ std::optional<RulerStaff> stand_ruler(const Scene& scene, const Motion& motion, 
 std::optional<RulerLayout> lay_out_ruler(const RulerStaff& staff, const View& view);
 
 /// A picture of the view's size with the ruler on transparent.
-Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font);
+Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font,
+                 const Palette& palette = {});
 
 /// Size of the ruler's numbers, px.
 double ruler_font_px(const View& view);

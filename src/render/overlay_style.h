@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "render/canvas.h"
+#include "scene/scene.h"
 
 namespace carom {
 
@@ -11,6 +12,19 @@ inline constexpr Ink kSlate{0.122, 0.161, 0.216, 1};  // #1f2937
 inline constexpr Ink kPaper{1, 1, 1, 1};
 inline constexpr Ink kGood{0.043, 0.498, 0.318, 1};  // #0b7f51
 inline constexpr Ink kBad{0.753, 0.161, 0.153, 1};   // #c02927
+
+/// The inks of a theme: letters and lines, what lies below them, and the two verdicts.
+struct Palette {
+    Ink ink = kSlate, paper = kPaper, good = kGood, bad = kBad;
+};
+inline Palette palette_of(Theme theme) {
+    if (theme == Theme::kLight) return {};
+    return {{0.914, 0.929, 0.953, 1},   // #e9edf3
+            {0.071, 0.094, 0.133, 1},   // #121822
+            {0.204, 0.780, 0.541, 1},   // #34c78a
+            {0.965, 0.455, 0.420, 1}};  // #f6746b
+}
+inline Ink with_alpha(const Ink& ink, double alpha) { return {ink.r, ink.g, ink.b, alpha}; }
 
 /// Letters smaller than this are not legible.
 inline constexpr double kSmallestLetters = 9.5;

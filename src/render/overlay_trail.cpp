@@ -14,7 +14,8 @@ constexpr double kOpacity = 0.80;
 std::vector<Ink> inks_of(const Scene& scene) {
     std::vector<Ink> inks;
     for (const Ball& ball : scene.balls)
-        inks.push_back(trail_ink(scene.looks[static_cast<std::size_t>(ball.look)]));
+        inks.push_back(
+            trail_ink(scene.looks[static_cast<std::size_t>(ball.look)], scene.overlay.theme));
     return inks;
 }
 
@@ -27,12 +28,20 @@ double saturation(const Color& c) {
 
 }  // namespace
 
-Ink trail_ink(const Look& look) {
+Ink trail_ink(const Look& look, Theme theme) {
     // A ball that is white in the main is known by its second colour, if that is one.
     Color color = look.color;
     constexpr double kGrey = 0.15;
     if (saturation(color) < kGrey && saturation(look.second_color) > kGrey)
         color = look.second_color;
+    if (theme == Theme::kDark) {
+        // Lightened as far as needed, by mixing in white.
+        constexpr double kDarkest = 0.58;
+        const double light = lightness(color);
+        const double white = light < kDarkest ? (kDarkest - light) / (1 - light) : 0;
+        return {color.r + white * (1 - color.r), color.g + white * (1 - color.g),
+                color.b + white * (1 - color.b), 1};
+    }
     // Darkened as far as needed, keeping the hue; grey gets a touch of the overlay's slate.
     constexpr double kLightest = 0.46;
     const double scale = std::min(1.0, kLightest / std::max(lightness(color), 1e-6));
@@ -71,6 +80,12 @@ OverlayPainter::Rect OverlayTrails::update(double t) {
     last_ = t;
     for (std::size_t i = 0; i < lines_.size(); ++i)
         std::isinf(seconds_) ? extend(i, t) : draw_fading(i, t);
+    // From the last corner to the ball: replaced by what the next corner makes of it. Only after
+    // all that stays, which would otherwise be taken back with it.
+    for (std::size_t i = 0; i < lines_.size() && std::isinf(seconds_); ++i) {
+        const Line& line = lines_[i];
+        if (!line.corners.empty()) segment(i, line.corners.back(), line.curve.at(t), t, false);
+    }
     return raster_.take_changed();
 }
 
@@ -80,8 +95,6 @@ void OverlayTrails::extend(std::size_t i, double t) {
         if (!line.corners.empty()) segment(i, line.corners.back(), *corner, t, true);
         line.corners = {*corner};
     }
-    // From the last corner to the ball: replaced by what the next corner makes of it.
-    if (!line.corners.empty()) segment(i, line.corners.back(), line.curve.at(t), t, false);
 }
 
 void OverlayTrails::draw_fading(std::size_t i, double t) {

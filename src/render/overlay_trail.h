@@ -13,8 +13,8 @@
 
 namespace carom {
 
-/// A colour of the ball's look that is legible on a light floor.
-Ink trail_ink(const Look& look);
+/// A colour of the ball's look that is legible on a light floor, or on a dark one.
+Ink trail_ink(const Look& look, Theme theme = Theme::kLight);
 
 /// Without end, each frame adds what is new; with `seconds`, the trail fades towards its past and
 /// is drawn anew. Either way the picture at t is the same whatever was drawn before.

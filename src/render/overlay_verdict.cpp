@@ -35,7 +35,7 @@ std::string plate_text(const Scene& scene, const ReboundVerdict& verdict) {
 OverlayVerdict::OverlayVerdict(const Scene& scene, const Motion& motion,
                                const ReboundVerdict& verdict, int width_px, int height_px,
                                const std::vector<OverlayPainter::Rect>& taken,
-                               const std::string& font_family)
+                               const std::string& font_family, const Palette& palette)
     : from_s_(std::max(verdict.time_s, motion.duration - kShown_s * scene.film.speed)) {
     const std::string word = verdict.passes ? "passes" : "does not pass";
     double letters = letters_px(kLettersPx, height_px);
@@ -54,9 +54,9 @@ OverlayVerdict::OverlayVerdict(const Scene& scene, const Motion& motion,
     plate_ = Image(width, height);
     Canvas canvas(plate_);
     canvas.round_rect(0.5, 0.5, width - 1, height - 1, 0.36 * size);
-    canvas.use({kPaper.r, kPaper.g, kPaper.b, 0.88});
+    canvas.use(with_alpha(palette.paper, 0.88));
     cairo_fill_preserve(canvas.context());
-    const Ink& ink = verdict.passes ? kGood : kBad;
+    const Ink& ink = verdict.passes ? palette.good : palette.bad;
     cairo_save(canvas.context());
     cairo_clip(canvas.context());
     canvas.use(ink);
@@ -64,17 +64,16 @@ OverlayVerdict::OverlayVerdict(const Scene& scene, const Motion& motion,
     cairo_fill(canvas.context());
     cairo_restore(canvas.context());
     const double base = std::round(0.5 * (height + font.cap_height_px()));
-    font.draw(canvas, verdict_run, side, base, kPaper);
-    font.draw(canvas, text, head + side, base, kSlate);
+    font.draw(canvas, verdict_run, side, base, palette.paper);
+    font.draw(canvas, text, head + side, base, palette.ink);
     canvas.finish();
 
     const int border = whole(std::max(overlay_px(18, height_px), 5.0));
     rect_ = {(width_px - width) / 2, border, width, height};
-    for (const OverlayPainter::Rect& other : taken) {
-        const bool beside = rect_.x >= other.x + other.width || rect_.x + width <= other.x;
-        const bool apart = rect_.y >= other.y + other.height || rect_.y + height <= other.y;
-        if (!beside && !apart) rect_.y = other.y + other.height + border / 2;
-    }
+    // Below one it may meet the next, whatever their order.
+    for (std::size_t turn = 0; turn < taken.size(); ++turn)
+        for (const OverlayPainter::Rect& other : taken)
+            if (rect_.overlaps(other)) rect_.y = other.bottom() + border / 2;
 }
 
 void OverlayVerdict::draw(Image& picture) const { lay_over(plate_, rect_.x, rect_.y, picture); }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/overlay.h"
+#include "render/overlay_style.h"
 #include "render/rebound_verdict.h"
 
 namespace carom {
@@ -14,7 +15,7 @@ class OverlayVerdict {
     /// `scene` has a test. The plate stands in the middle of the top, or below what is `taken`.
     OverlayVerdict(const Scene& scene, const Motion& motion, const ReboundVerdict& verdict,
                    int width_px, int height_px, const std::vector<OverlayPainter::Rect>& taken,
-                   const std::string& font_family);
+                   const std::string& font_family, const Palette& palette = {});
 
     /// Shown in the film's last two seconds, but never before the rebound's top.
     bool shown_at(double t) const { return t >= from_s_; }

@@ -11,6 +11,7 @@
 #include "render/ball_billboards.h"
 #include "render/ball_shadows.h"
 #include "render/balls_in_view.h"
+#include "render/camera_motion.h"
 #include "render/driver_clock.h"
 #include "render/offscreen.h"
 #include "render/overlay.h"
@@ -57,9 +58,12 @@ class Painter::Impl {
         check_size();
         const double begin = clock_.now_s();
         const double aspect = static_cast<double>(width_px_) / height_px_;
-        const Camera camera = choose_camera(scene, motion, aspect);
+        camera_ = choose_camera(scene, motion, aspect);
+        moving_ = camera_moves(camera_);
+        const Camera camera = camera_at(camera_, motion, scene.film.start);
         const View& view = view_.emplace(camera, width_px_, height_px_);
-        const Lights lights = choose_lights(view);
+        // The lamp stays where it is, however the camera moves.
+        lights_ = choose_lights(view);
         surfaces_ = make_surface_table(scene, view);
 
         gl_.Disable(GL_DITHER);
@@ -68,18 +72,15 @@ class Painter::Impl {
         color_ =
             make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
         frame_ = make_framebuffer(gl_, "the picture", {&color_});
-        background_.emplace(gl_, view, lights, surfaces_, scale_of(scene, camera));
+        background_.emplace(gl_, view, lights_, surfaces_, scale_of(scene, camera));
         overlay_.emplace(scene, motion, view);
         draw_static_layer();
         if (overlay_->has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
-        if (surfaces_.count() > 0 && !scene.balls.empty()) {
-            // On one plane the shadows' own bounds are tight.
-            std::vector<TileBound> seen;
-            if (surfaces_.can_occlude())
-                seen = background_->tile_bounds(view, ShadowTiles::kTilePx);
-            shadows_.emplace(gl_, scene, view, lights, std::move(seen));
+        const bool on_surfaces = moving_ ? !scene.surfaces.empty() : surfaces_.count() > 0;
+        if (on_surfaces && !scene.balls.empty()) {
+            shadows_.emplace(gl_, scene, view, lights_, seen_in_tiles());
         }
-        balls_.emplace(gl_, scene, view, lights, surfaces_.can_occlude());
+        balls_.emplace(gl_, scene, view, lights_, surfaces_.can_occlude());
         check_not_blank();
         gl_.check("preparing the picture");
         draw_cpu_s_ += clock_.now_s() - begin;
@@ -102,6 +103,7 @@ class Painter::Impl {
         context_.make_current();
         if (out.width_px != width_px_ || out.height_px != height_px_)
             out = Image(width_px_, height_px_);
+        if (moving_) move_camera(t);
         copy_background();
         const std::vector<BallInView> balls = balls_at(instants, scene_, motion_, *view_);
         if (shadows_) shadows_->draw(balls, *background_);
@@ -137,6 +139,24 @@ class Painter::Impl {
                                   width_px_, height_px_, largest, largest));
     }
 
+    std::vector<TileBound> seen_in_tiles() const {
+        // On one plane the shadows' own bounds are tight.
+        if (!surfaces_.can_occlude()) return {};
+        return background_->tile_bounds(*view_, ShadowTiles::kTilePx);
+    }
+
+    /// Everything that depends on the view, for the camera's place at t.
+    void move_camera(double t) {
+        const Camera camera = camera_at(camera_, motion_, t);
+        const View& view = view_.emplace(camera, width_px_, height_px_);
+        surfaces_ = make_surface_table(scene_, view);
+        background_->redraw(view, lights_, surfaces_, scale_of(scene_, camera));
+        overlay_.emplace(scene_, motion_, view);
+        draw_static_layer();
+        if (shadows_) shadows_->set_view(scene_, view, lights_, seen_in_tiles());
+        balls_->set_view(view, lights_);
+    }
+
     void draw_static_layer() {
         const Image layer = overlay_->static_under_layer();
         if (layer.width_px == 0) return;
@@ -147,7 +167,8 @@ class Painter::Impl {
     }
 
     void draw_moving_layer(double t) {
-        const OverlayPainter::Rect changed = overlay_->update_moving_under_layer(t);
+        OverlayPainter::Rect changed = overlay_->update_moving_under_layer(t);
+        if (moving_) changed = {0, 0, width_px_, height_px_};  // the one before saw another view
         if (!changed.empty())
             moving_layer_->update(overlay_->moving_under_layer(), changed.x, changed.y,
                                   changed.width, changed.height);
@@ -180,6 +201,9 @@ class Painter::Impl {
     const Gl& gl_;
     DriverClock clock_;
     int width_px_, height_px_;
+    Camera camera_;  ///< at the motion's start
+    bool moving_ = false;
+    Lights lights_;
     std::optional<View> view_;
     SurfaceTable surfaces_;
     GlTexture color_;
@@ -210,7 +234,12 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
     add("clock", overlay.clock.has_value(), "the scene asks for it", "not asked for");
     add("labels", overlay.labels.has_value(), "the scene asks for it", "not asked for");
     add("verdict", scene_.test.has_value(), "the scene has a test", "the scene has no test");
-    add("trail", moving_layer_.has_value(), "the scene asks for it", "not asked for");
+    add("trail", overlay.trail.has_value(), "the scene asks for it", "not asked for");
+    add("title", overlay.title.has_value(), "the scene asks for it", "not asked for");
+    add("caption", !overlay.caption.empty(), "the scene asks for it", "not asked for");
+    add("peaks", overlay.peaks.has_value(), "the scene asks for it", "not asked for");
+    add("velocity", overlay.velocity.has_value(), "the scene asks for it", "not asked for");
+    add("plot", overlay.plot.has_value(), "the scene asks for it", "not asked for");
     return result;
 }
 

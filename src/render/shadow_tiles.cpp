@@ -79,6 +79,7 @@ ShadowTiles::ShadowTiles(const Scene& scene, const View& view, const Lights& lig
     : to_light_(view_direction(view, lights.to_light)),
       tan_radius_(lights.tan_radius),
       pixel_width_(carom::pixel_width(view)),
+      orthographic_(view.orthographic()),
       middle_px_(0.5 * view.width_px(), 0.5 * view.height_px()),
       columns_((view.width_px() + kTilePx - 1) / kTilePx),
       rows_((view.height_px() + kTilePx - 1) / kTilePx),
@@ -119,10 +120,11 @@ void ShadowTiles::add_body(const Vec3& center, double radius, const View& view) 
 std::vector<Vec2> ShadowTiles::project(const std::vector<Vec3>& points) const {
     std::vector<Vec2> result;
     const auto add = [&](const Vec3& p) {
-        result.push_back(middle_px_ + Vec2(p.x(), p.y()) / (p.z() * pixel_width_));
+        result.push_back(middle_px_ +
+                         Vec2(p.x(), p.y()) / ((orthographic_ ? 1.0 : p.z()) * pixel_width_));
     };
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (points[i].z() >= kNear) {
+        if (orthographic_ || points[i].z() >= kNear) {
             add(points[i]);
             continue;
         }

@@ -58,6 +58,7 @@ class ShadowTiles {
     Vec3 to_light_;  ///< view space
     double tan_radius_;
     double pixel_width_;
+    bool orthographic_;
     Vec2 middle_px_;
     int columns_, rows_;
     std::vector<TileBound> seen_;

@@ -11,13 +11,19 @@ namespace {
 
 constexpr float kSky = 1e29f;  ///< depths beyond belong to no surface (surfaces.glsl: kFar)
 
-GlProgram make_program(const Gl& gl, const SurfaceTable& table) {
-    std::vector<std::string> defines;
+std::vector<std::string> defines_for(const View& view, const SurfaceTable& table) {
+    std::vector<std::string> defines = view_defines(view);
     if (table.planes > 0) defines.push_back("PLANES");
     if (table.boxes > 0) defines.push_back("BOXES");
     if (table.spheres > 0) defines.push_back("SPHERES");
     if (table.capsules > 0) defines.push_back("CAPSULES");
-    if (table.count() > 1 || table.can_occlude()) defines.push_back("SEVERAL");
+    // Parallel rays see where a plane ends that they meet edge-on.
+    if (table.count() > 1 || table.can_occlude() || view.orthographic())
+        defines.push_back("SEVERAL");
+    return defines;
+}
+
+GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines) {
     GlProgram::Sources sources;
     sources.name = "static picture";
     sources.vertex = assemble_shader({}, {"fullscreen_vertex"});
@@ -35,10 +41,21 @@ StaticPicture::StaticPicture(const Gl& gl, const View& view, const Lights& light
     color_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     front_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     facts_ = make_texture(gl, GL_RGBA32UI, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-    const GlFramebuffer all =
-        make_framebuffer(gl, "the static picture", {&color_, &front_, &facts_});
+    all_ = make_framebuffer(gl, "the static picture", {&color_, &front_, &facts_});
+    redraw(view, lights, table, scale);
+    color_framebuffer_ = make_framebuffer(gl, "copies of the static picture", {&color_});
+    facts_framebuffer_ = make_framebuffer(gl, "facts of the static picture", {&facts_});
+}
 
-    const GlProgram program = make_program(gl, table);
+void StaticPicture::redraw(const View& view, const Lights& lights, const SurfaceTable& table,
+                           const PictureScale& scale) {
+    const Gl& gl = *gl_;
+    std::vector<std::string> defines = defines_for(view, table);
+    if (!program_ || defines != defines_) {
+        program_ = make_program(gl, defines);
+        defines_ = std::move(defines);
+    }
+    const GlProgram& program = *program_;
     set_common_uniforms(gl, program, view, lights);
     gl.Uniform1i(program.uniform("u_surfaces"), 0);
     gl.Uniform4i(program.uniform("u_counts"), table.planes, table.boxes, table.spheres,
@@ -51,13 +68,11 @@ StaticPicture::StaticPicture(const Gl& gl, const View& view, const Lights& light
 
     const GlVertexArray nothing(gl);
     gl.BindVertexArray(nothing.name());
-    gl.Viewport(0, 0, width, height);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, all_.name());
+    gl.Viewport(0, 0, view.width_px(), view.height_px());
     gl.Disable(GL_BLEND);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.check("drawing the static picture");
-
-    color_framebuffer_ = make_framebuffer(gl, "copies of the static picture", {&color_});
-    facts_framebuffer_ = make_framebuffer(gl, "facts of the static picture", {&facts_});
 }
 
 std::vector<TileBound> StaticPicture::tile_bounds(const View& view, int tile_px) const {
@@ -77,13 +92,15 @@ std::vector<TileBound> StaticPicture::tile_bounds(const View& view, int tile_px)
             const std::size_t at =
                 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                      static_cast<std::size_t>(x));
-            const Vec3 ray((x + 0.5 - 0.5 * width) * pixel, (y + 0.5 - 0.5 * height) * pixel, 1);
+            const Vec2 across((x + 0.5 - 0.5 * width) * pixel, (y + 0.5 - 0.5 * height) * pixel);
             Eigen::AlignedBox3d& box =
                 boxes[static_cast<std::size_t>(y / tile_px) * static_cast<std::size_t>(columns) +
                       static_cast<std::size_t>(x / tile_px)];
             for (const std::size_t layer : {at, at + 1}) {
                 const float depth = std::bit_cast<float>(facts[layer]);
-                if (depth < kSky) box.extend(Vec3(ray * static_cast<double>(depth)));
+                if (!(depth < kSky)) continue;
+                const double spread = view.orthographic() ? 1.0 : static_cast<double>(depth);
+                box.extend(Vec3(across.x() * spread, across.y() * spread, depth));
             }
         }
     }

@@ -1,6 +1,8 @@
 // What does not move: drawn once per camera, copied below every frame.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "render/gl.h"
@@ -28,6 +30,10 @@ class StaticPicture {
     StaticPicture(const Gl& gl, const View& view, const Lights& lights, const SurfaceTable& table,
                   const PictureScale& scale);
 
+    /// Draws it again for another view of the same size and kind.
+    void redraw(const View& view, const Lights& lights, const SurfaceTable& table,
+                const PictureScale& scale);
+
     /// A framebuffer with the colours alone: the source of each frame's copy, and the place where
     /// layers that do not move may be drawn once.
     const GlFramebuffer& color_framebuffer() const { return color_framebuffer_; }
@@ -44,8 +50,10 @@ class StaticPicture {
 
   private:
     const Gl* gl_;
+    std::vector<std::string> defines_;  ///< of the program
+    std::optional<GlProgram> program_;
     GlTexture color_, front_, facts_;
-    GlFramebuffer color_framebuffer_, facts_framebuffer_;
+    GlFramebuffer all_, color_framebuffer_, facts_framebuffer_;
 };
 
 }  // namespace carom

@@ -77,6 +77,10 @@ int append(const Scene& scene, std::vector<float>& out, const Make& make) {
 }  // namespace
 
 bool seen_from_front(const PlaneShape& plane, const View& view) {
+    // Parallel rays see a plane from the side that they come from; edge-on, the ground that it
+    // cuts.
+    constexpr double kEdgeOn = 1e-7;  // cosine; surfaces.glsl has the same
+    if (view.orthographic()) return plane.normal.dot(view.forward()) < kEdgeOn;
     return plane.normal.dot(view.eye()) > plane.offset_m;
 }
 

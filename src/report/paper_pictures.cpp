@@ -12,6 +12,7 @@
 #include "media/threaded_sink.h"
 #include "render/painter.h"
 #include "report/embedded_scenes.h"
+#include "scene/film_clock.h"
 #include "scene/reader.h"
 #include "sim/simulate.h"
 
@@ -40,7 +41,7 @@ void film_motion(const PaperRun& run, const std::string& path, const std::stop_t
     Painter painter(run.scene, run.motion, {film.width_px, film.height_px});
 
     // As in a film of `carom render`: the end itself only where it is not rounding.
-    const double seconds = (run.motion.duration - film.start) / film.speed;
+    const double seconds = film_time(film, run.motion.duration);
     const auto frames =
         static_cast<std::int64_t>(std::ceil(seconds * film.fps.per_second() - 1e-9));
     Image picture;
@@ -50,7 +51,7 @@ void film_motion(const PaperRun& run, const std::string& path, const std::stop_t
             throw Failure(FailureKind::kRun, "interrupted while filming " + path);
         }
         const double in_film = static_cast<double>(k) * film.fps.denominator / film.fps.numerator;
-        painter.paint(film.start + film.speed * in_film, picture);
+        painter.paint(motion_time(film, in_film), picture);
         sink->write_swapped(k, picture);
     }
     sink->finish();

@@ -41,11 +41,13 @@ struct Build {
 };
 
 // In this order: later ones use what earlier ones filled in.
-void build_setup(Build& build);      // simulation, film, camera, overlay
+void build_setup(Build& build);      // title, simulation, film
 void build_materials(Build& build);  // materials and pairs
 void build_looks(Build& build);
 void build_surfaces(Build& build);
 void build_balls(Build& build);
+void build_overlay(Build& build);
+void build_camera(Build& build);
 void build_test(Build& build);
 void check_names(Build& build);     // unique over balls and surfaces
 void check_overlaps(Build& build);  // at the start

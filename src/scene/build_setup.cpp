@@ -1,10 +1,11 @@
-// Simulation, film, camera and overlay.
+// Simulation, film and camera.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numeric>
 
 #include "scene/build.h"
+#include "scene/film_clock.h"
 #include "scene/scalar.h"
 
 namespace carom {
@@ -97,7 +98,7 @@ void check_film_times(Build& build, const Fields& fields) {
                                        start->text, number_text(*end)));
     constexpr double kMostFrames = 1e9;  // frame numbers are ints
     const Film& film = build.scene.film;
-    const double frames = (*end - film.start) * film.fps.per_second() / film.speed;
+    const double frames = film_time(film, *end) * film.fps.per_second();
     const Node* film_node = build.root.find("film");
     if (frames > kMostFrames && film_node != nullptr && film_node->valid)
         build.report.error(*film_node,
@@ -111,6 +112,28 @@ void check_film_times(Build& build, const Fields& fields) {
             build.report.error(still, fmt::format("the still at {} s is outside the motion, which "
                                                   "lasts {} s",
                                                   still.text, number_text(*end)));
+}
+
+/// One speed, or a ramp.
+void read_speed(Build& build, const Fields& fields) {
+    Film& film = build.scene.film;
+    const Node* node = fields.find("speed");
+    if (node == nullptr || node->kind != Node::Kind::kList) {
+        film.speed = fields.number("speed");
+        return;
+    }
+    if (node->children.empty()) build.report.error(*node, "the list of speeds has no entries");
+    for (const Node& entry : node->children) {
+        const Fields key = build.fields(Section::kSpeedKey, &entry);
+        if (!key.has("time") || !key.has("speed")) continue;
+        const SpeedKey made{key.number("time"), key.number("speed")};
+        if (!film.ramp.empty() && made.time <= film.ramp.back().time) {
+            build.report.error(*key.find("time"), "the times of the film's speeds must increase");
+            continue;
+        }
+        film.ramp.push_back(made);
+        film.speed = made.speed;
+    }
 }
 
 void build_film(Build& build) {
@@ -127,89 +150,10 @@ void build_film(Build& build) {
                                        film.width_px, film.height_px, size.prod() / 1e6));
     film.fps = read_frame_rate(fields);
     film.start = fields.number("start");
-    film.speed = fields.number("speed");
+    read_speed(build, fields);
     if (const Node* stills = fields.find("stills"))
         for (const Node& still : stills->children) film.stills.push_back(node_number(still));
     check_film_times(build, fields);
-}
-
-void build_camera(Build& build) {
-    const Node* node = build.root.find("camera");
-    if (node == nullptr || node->kind != Node::Kind::kMap) return;
-    const Fields fields = build.top().child("camera");
-    if (!fields.has("from") || !fields.has("to")) return;  // reported by the validator
-    Camera camera;
-    camera.from = fields.vec3("from");
-    camera.to = fields.vec3("to");
-    camera.up = fields.vec3("up");
-    camera.fov_deg = fields.number("fov_deg");
-
-    constexpr double kShortest = 1e-9;  // m; shorter counts as 0
-    constexpr double kParallel = 1e-6;  // rad; below it the horizon is rounding noise
-    const Vec3 view = camera.to - camera.from;
-    const Vec3 up = camera.up.normalized();
-    const Node* up_node = fields.find("up");
-    const Node& blamed = up_node != nullptr ? *up_node : *node;
-    if (view.norm() < kShortest)
-        build.report.error(*fields.find("to"), "the camera's 'from' and 'to' are the same point");
-    else if (camera.up.norm() < kShortest)
-        build.report.error(blamed, "the camera's 'up' has length 0");
-    else if (view.normalized().cross(up).norm() < kParallel)
-        build.report.error(blamed, fmt::format("the camera looks along 'up' ({}); give it another "
-                                               "'up', such as [0, 1, 0]",
-                                               up_node != nullptr ? "from the file" : "[0, 0, 1]"));
-    build.scene.camera = camera;
-}
-
-/// Options of one overlay: none for `false`, and the defaults for `true`.
-std::optional<Fields> overlay_options(const Fields& overlay, const char* key) {
-    const Node* node = overlay.find(key);
-    if (node == nullptr) return std::nullopt;
-    const bool is_map = node->kind == Node::Kind::kMap;
-    if (!is_map && !resolve_scalar(node->text, node->quoted).boolean) return std::nullopt;
-    return overlay.child(key);
-}
-
-Corner parse_corner(const std::string& word) {
-    if (word == "top_right") return Corner::kTopRight;
-    if (word == "bottom_left") return Corner::kBottomLeft;
-    return word == "bottom_right" ? Corner::kBottomRight : Corner::kTopLeft;
-}
-
-RulerOptions read_ruler(Build& build, const Fields& fields) {
-    RulerOptions ruler;
-    if (fields.has("at")) ruler.at = fields.vec2("at");
-    ruler.from = fields.number("from");
-    ruler.to = fields.maybe_number("to");
-    if (ruler.to && *ruler.to <= ruler.from)
-        build.report.error(*fields.find("to"),
-                           fmt::format("the ruler's 'to' ({} m) must lie above its 'from' ({} m)",
-                                       number_text(*ruler.to), number_text(ruler.from)));
-    if (const Node* band = fields.find("band")) {
-        const Vec2 bounds = fields.vec2("band");
-        ruler.band = {bounds[0], bounds[1]};
-        if (bounds[1] <= bounds[0])
-            build.report.error(*band,
-                               "the ruler's 'band' must be a lower and then a higher height");
-    }
-    return ruler;
-}
-
-void build_overlay(Build& build) {
-    const Fields fields = build.top().child("overlay");
-    Overlay& overlay = build.scene.overlay;
-    if (const auto ruler = overlay_options(fields, "ruler"))
-        overlay.ruler = read_ruler(build, *ruler);
-    if (const auto clock = overlay_options(fields, "clock"))
-        overlay.clock = {parse_corner(clock->word("corner")), clock->integer("digits")};
-    if (const auto trail = overlay_options(fields, "trail")) {
-        overlay.trail = TrailOptions{};
-        overlay.trail->seconds =
-            trail->maybe_number("seconds").value_or(std::numeric_limits<double>::infinity());
-        overlay.trail->width_px = trail->number("width_px");
-    }
-    if (const auto labels = overlay_options(fields, "labels"))
-        overlay.labels = {labels->number("size_px")};
 }
 
 }  // namespace
@@ -218,8 +162,6 @@ void build_setup(Build& build) {
     build.scene.title = build.top().maybe_word("title").value_or("");
     build_simulation(build);
     build_film(build);
-    build_camera(build);
-    build_overlay(build);
 }
 
 }  // namespace carom

@@ -29,15 +29,21 @@ enum class Section {
     kBall,
     kRepeat,
     kCamera,
+    kCameraKey,
     kFilm,
+    kSpeedKey,
     kOverlay,
     kTest,
     kRuler,
     kClock,
     kTrail,
     kLabels,
+    kTitle,
+    kPeaks,
+    kVelocity,
+    kPlot,
 };
-inline constexpr int kSectionCount = static_cast<int>(Section::kLabels) + 1;
+inline constexpr int kSectionCount = static_cast<int>(Section::kPlot) + 1;
 
 /// What a value may look like; a key may have several.
 using Forms = unsigned;
@@ -159,6 +165,7 @@ class KeyTable {
 
 /// The rows themselves, by subject, in the files keys_*.cpp.
 std::vector<KeySpec> setup_keys();
+std::vector<KeySpec> overlay_keys();
 std::vector<KeySpec> surface_keys();
 std::vector<KeySpec> ball_keys();
 std::vector<Rule> key_rules();

@@ -11,6 +11,13 @@ std::vector<Rule> key_rules() {
         {kPair, Rule::Kind::kAtLeastOne, {"restitution", "friction"}},
         {kSurface, Rule::Kind::kExactlyOne, {"plane", "box", "sphere", "capsule"}},
         {kBox, Rule::Kind::kAtMostOne, {"rotation_deg", "quaternion"}},
+        {kCamera, Rule::Kind::kExactlyOne, {"from", "path"}},
+        {kCamera, Rule::Kind::kExactlyOne, {"to", "path"}},
+        {kCamera, Rule::Kind::kAtMostOne, {"follow", "path"}},
+        {kCamera, Rule::Kind::kAtMostOne, {"orbit_deg_per_s", "path"}},
+        {kCamera, Rule::Kind::kAtMostOne, {"fov_deg", "focal_mm"}},
+        {kCamera, Rule::Kind::kAtMostOne, {"fov_deg", "orthographic"}},
+        {kCamera, Rule::Kind::kAtMostOne, {"focal_mm", "orthographic"}},
         {kBall, Rule::Kind::kAtMostOne, {"position", "drop_height"}},
         {kBall, Rule::Kind::kAtMostOne, {"position", "at"}},
     };
@@ -43,10 +50,17 @@ std::vector<SectionDoc> section_docs() {
         {kBall, "ball", "balls[]", "A ball, or with `repeat` a grid of equal ones."},
         {kRepeat, "repeat", "balls[].repeat",
          "A grid of balls named NAME_i_j_k, i along x, j along y, k along z, each counted from 0."},
-        {kCamera, "camera", "camera", "A pinhole camera that stands still."},
+        {kCamera, "camera", "camera",
+         "Where the picture is taken from: a pinhole, or parallel rays; it stands still, unless "
+         "one of "
+         "`follow`, `orbit_deg_per_s` and `path` moves it. The view depends on the motion's time "
+         "alone."},
+        {kCameraKey, "camera_key", "camera.path[]", "Where the camera is at one instant."},
         {kFilm, "film", "film",
-         "Size and timing of the film; frame n shows start + speed n / fps."},
-        {kOverlay, "overlay", "overlay", "Each is `false`, `true`, or a mapping with options."},
+         "Size and timing of the film; frame n shows start + speed n / fps where the speed "
+         "is constant."},
+        {kSpeedKey, "speed_key", "film.speed[]", "The film's speed at one instant."},
+        {kOverlay, "overlay", "overlay", "Most are `false`, `true`, or a mapping with options."},
         {kTest, "test", "test",
          "The rule of a drop test. Whether the ball passes is printed by the commands, written by "
          "--stats, and drawn in the last two seconds of the film."},
@@ -54,6 +68,13 @@ std::vector<SectionDoc> section_docs() {
         {kClock, "clock", "overlay.clock", "The time of the motion in seconds."},
         {kTrail, "trail", "overlay.trail", "The path of each ball's centre."},
         {kLabels, "labels", "overlay.labels", "The balls' names."},
+        {kTitle, "title", "overlay.title", "The scene's title, at the top of the picture."},
+        {kPeaks, "peaks", "overlay.peaks",
+         "An outline of the ball at each peak reached so far, with the gap under it in metres."},
+        {kVelocity, "velocity", "overlay.velocity",
+         "The balls' velocities at the picture's instant, from their centres."},
+        {kPlot, "plot", "overlay.plot",
+         "Height of the balls' lowest points over time, up to the picture's instant."},
     };
 }
 

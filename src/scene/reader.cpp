@@ -33,6 +33,8 @@ void build_scene(Build& build) {
     build_looks(build);
     build_surfaces(build);
     build_balls(build);
+    build_overlay(build);
+    build_camera(build);
     build_test(build);
     check_names(build);
     check_overlaps(build);

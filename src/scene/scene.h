@@ -122,11 +122,26 @@ struct Simulation {
     int iterations = 20;  ///< solver quick only
 };
 
+/// What a camera that moves along a path shows at one instant of the motion.
+struct CameraKey {
+    double time = 0;  ///< s of the motion
+    Vec3 from = Vec3::Zero();
+    Vec3 to = Vec3::UnitY();
+    double fov_deg = 40;
+};
+
+/// `from`, `to` and `fov_deg` are those of the motion's start; render/camera_motion.h moves them.
 struct Camera {
     Vec3 from = Vec3(0, -6, 1.5);
     Vec3 to = Vec3(0, 0, 1);
     Vec3 up = Vec3::UnitZ();
     double fov_deg = 40;  ///< vertical
+    /// Height of the picture in metres under parallel rays along `to - from`; empty: a pinhole.
+    std::optional<double> orthographic_m;
+    std::optional<int> follow;    ///< ball (index into Scene::balls) that `to` keeps to
+    double smooth_s = 0;          ///< s of the motion over which the followed path is averaged
+    double orbit_deg_per_s = 0;   ///< turn of `from` about the upright through `to`
+    std::vector<CameraKey> path;  ///< by time, increasing; empty: none
 };
 
 /// Frames per second as a fraction, so that 30000/1001 is exact.
@@ -136,12 +151,19 @@ struct FrameRate {
     double per_second() const { return static_cast<double>(numerator) / denominator; }
 };
 
+/// Speed of a film at one instant of the motion.
+struct SpeedKey {
+    double time = 0;   ///< s of the motion
+    double speed = 1;  ///< seconds of motion per second of film
+};
+
 struct Film {
     int width_px = 1280;
     int height_px = 720;
     FrameRate fps;
     double start = 0;            ///< s of the motion that frame 0 shows
-    double speed = 1;            ///< seconds of motion per second of film
+    double speed = 1;            ///< seconds of motion per second of film; at the end of a ramp
+    std::vector<SpeedKey> ramp;  ///< by time, increasing, linear between; empty: `speed` throughout
     std::vector<double> stills;  ///< s of the motion
 };
 
@@ -166,12 +188,36 @@ struct LabelOptions {
     double size_px = 15;  ///< of the letters, at a height of 720 pixels
 };
 
+struct TitleOptions {
+    double size_px = 22;  ///< of the letters, at a height of 720 pixels
+};
+struct PeakOptions {
+    double size_px = 13;  ///< of the letters, at a height of 720 pixels
+};
+struct VelocityOptions {
+    std::optional<double> scale_s;  ///< metres of arrow per m/s; default: chosen for the motion
+};
+struct PlotOptions {
+    std::vector<int> balls;  ///< indices into Scene::balls
+    Corner corner = Corner::kTopRight;
+    std::array<double, 2> size{0.36, 0.36};  ///< shares of the picture's width and height
+};
+
+/// Light plates with dark letters, or dark ones with light letters.
+enum class Theme { kLight, kDark };
+
 /// What is written over the picture; empty means not drawn, and costs nothing.
 struct Overlay {
     std::optional<RulerOptions> ruler;
     std::optional<ClockOptions> clock;
     std::optional<TrailOptions> trail;
     std::optional<LabelOptions> labels;
+    std::optional<TitleOptions> title{};  ///< of Scene::title
+    std::string caption{};  ///< "" for none
+    std::optional<PeakOptions> peaks{};
+    std::optional<VelocityOptions> velocity{};
+    std::optional<PlotOptions> plot{};
+    Theme theme = Theme::kLight;
 };
 
 /// The rule of a drop test: how high the first rebound of a ball must come. Heights are over what

@@ -83,11 +83,15 @@ void Cluster::add(const Contact& contact) {
     if (!contact.other.is_surface) add_ball(contact.other.index);
 }
 
-/// Adds what is not among the seeds of the ball at hand.
-void Cluster::add_new(const Contact& contact) {
+/// Whether a contact is among those of the ball at hand already.
+bool Cluster::is_known(int ball, const Partner& other) const {
     for (std::size_t i = first_of_ball_; i < contacts_.size(); ++i)
-        if (contacts_[i].ball == contact.ball && contacts_[i].other == contact.other) return;
-    add(contact);
+        if (contacts_[i].ball == ball && contacts_[i].other == other) return true;
+    return false;
+}
+
+void Cluster::add_new(const Contact& contact) {
+    if (!is_known(contact.ball, contact.other)) add(contact);
 }
 
 void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
@@ -114,8 +118,9 @@ void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
 
 void Cluster::touch_surfaces(int ball) {
     for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
+        if (is_known(ball, {true, s})) continue;
         const Contact contact = world_.contact_at(ball, {true, s}, time_);
-        if (world_.touches(contact, time_)) add_new(contact);
+        if (world_.touches(contact, time_)) add(contact);
     }
 }
 

@@ -75,6 +75,7 @@ class Cluster {
     std::size_t index_of(int ball) const;
     bool has(int ball) const { return place_[static_cast<std::size_t>(ball)] >= 0; }
     void add(const Contact& contact);
+    bool is_known(int ball, const Partner& other) const;
     void add_new(const Contact& contact);
     void press_together();
     void add_ball(int ball);

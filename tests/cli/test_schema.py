@@ -50,7 +50,9 @@ balls:
   - {name: c, radius: 0.05, position: [0, 3, 3], repeat: {count: [2, 2, 2], spacing: [1, 1, 1]}}
 camera: {from: [0, -6, 1.5], to: [0, 0, 1], fov_deg: 30}
 film: {size: [640, 360], fps: "30000/1001", speed: 0.5, stills: [0.5]}
-overlay: {ruler: true, clock: {corner: top_right}, trail: false, labels: {size_px: 12}}
+overlay: {ruler: true, clock: {corner: top_right}, trail: false, labels: {size_px: 12},
+  title: true, caption: words, peaks: {size_px: 11}, velocity: {scale: 0.1}, plot: {ball: [a, b], size: [0.3, 0.4]},
+  theme: dark}
 """
 
 # Where, and what to put there. DELETE takes the key away.

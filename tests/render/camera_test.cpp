@@ -64,7 +64,7 @@ TEST(View, DegenerateCamerasStillHaveAxes) {
 
 TEST(ChooseCamera, KeepsTheScenesOwn) {
     Sample sample = samples::drop(1.8, 0.12, 4);
-    sample.scene.camera = Camera{Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3::UnitZ(), 55};
+    sample.scene.camera = samples::pinhole(Vec3(1, 2, 3), Vec3(4, 5, 6), 55);
     const Camera camera = choose_camera(sample.scene, sample.motion, 16.0 / 9);
     EXPECT_EQ(camera.from, Vec3(1, 2, 3));
     EXPECT_EQ(camera.fov_deg, 55);

@@ -78,8 +78,7 @@ TEST(Ruler, ReadsTheGapUnderABall) {
     Sample sample = drop(1.8, 0.12, 4);
     sample.scene.overlay.ruler = RulerOptions{};
     for (const bool own : {false, true}) {
-        if (own)
-            sample.scene.camera = Camera{Vec3(0.5, -6, 1.5), Vec3(0.5, 0, 1.5), Vec3::UnitZ(), 40};
+        if (own) sample.scene.camera = samples::pinhole(Vec3(0.5, -6, 1.5), Vec3(0.5, 0, 1.5), 40);
         const View view = view_of(sample, {1280, 720});
         const auto staff = stand_ruler(sample.scene, sample.motion, view);
         ASSERT_TRUE(staff);
@@ -184,7 +183,7 @@ TEST(Ruler, ChangesSideWhereTheCameraHasNoRoom) {
     Sample sample = drop(1.8, 0.12, 4);
     sample.scene.overlay.ruler = RulerOptions{};
     // The ball stands at the left edge of this picture.
-    sample.scene.camera = Camera{Vec3(2.2, -6, 1), Vec3(2.2, 0, 1), Vec3::UnitZ(), 26};
+    sample.scene.camera = samples::pinhole(Vec3(2.2, -6, 1), Vec3(2.2, 0, 1), 26);
     const View view = view_of(sample, {1280, 720});
     const auto staff = stand_ruler(sample.scene, sample.motion, view);
     ASSERT_TRUE(staff);

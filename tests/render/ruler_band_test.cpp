@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "render/overlay_ruler.h"
+#include "sample_motions.h"
 
 namespace carom {
 namespace {
 
-const View kView({Vec3(0, -6, 1), Vec3(0, 0, 1), Vec3::UnitZ(), 30}, 640, 360);
+const View kView(samples::pinhole(Vec3(0, -6, 1), Vec3(0, 0, 1), 30), 640, 360);
 
 RulerLayout layout_with(const std::optional<std::array<double, 2>>& band) {
     RulerStaff staff{Vec2(-0.5, 0), 0, 2, false};

@@ -16,6 +16,15 @@ struct Sample {
     Motion motion;
 };
 
+/// A camera at rest with a vertical field of view.
+inline Camera pinhole(const Vec3& from, const Vec3& to, double fov_deg) {
+    Camera camera;
+    camera.from = from;
+    camera.to = to;
+    camera.fov_deg = fov_deg;
+    return camera;
+}
+
 /// A floor at z = 0 and no ball yet.
 inline Sample empty_floor(double duration) {
     Sample sample;

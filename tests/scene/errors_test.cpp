@@ -219,8 +219,7 @@ TEST(Errors, Balls) {
 TEST(Errors, Picture) {
     const std::string view = "camera: {from: [0, 0, 1], to: [0, 0, 5]";
     expect_errors({
-        {"camera: {to: [0, 0, 0]}",
-         "2:9: error: the key 'from' is missing, such as 'from: [0, -6, 1.5]'"},
+        {"camera: {to: [0, 0, 0]}", "2:9: error: one of 'from', 'path' must stand here"},
         {"camera: {from: [0, 0, 1], to: [0, 0, 1]}",
          "2:31: error: the camera's 'from' and 'to' are the same point"},
         {view + "}",
@@ -267,6 +266,20 @@ TEST(Errors, Picture) {
         {"overlay: {trail: {seconds: 0}}", "2:28: error: 'seconds' must be above 0 s, not 0"},
         {"overlay: {labels: {size_px: 0}}",
          "2:29: error: 'size_px' must be above 0 and at most 200 pixels, not 0"},
+        {"overlay: {title: true}",
+         "2:18: error: the overlay shows a title, but the scene has no 'title'"},
+        {"overlay: {caption: true}",
+         "2:20: error: 'caption' must be text (in quotes if it looks like a number), not true"},
+        {"overlay: {caption: " + std::string(401, 'x') + "}",
+         "2:20: error: the caption has 401 characters; a picture has room for 400"},
+        {"overlay: {velocity: {scale: 0}}",
+         "2:29: error: 'scale' must be above 0 m per m/s, not 0"},
+        {"overlay: {plot: {ball: nobody}}", "2:24: error: there is no ball 'nobody'"},
+        {"overlay: {plot: {ball: []}}", "2:24: error: the plot's 'ball' names no ball"},
+        {"overlay: {plot: {size: [0, 1]}}", "2:25: error: 'size' must be between 0.1 and 1, not 0"},
+        {"overlay: {theme: drak}",
+         "2:18: error: 'theme' must be one of light, dark, not the text 'drak'; did you mean "
+         "'dark'?"},
     });
 }
 
@@ -323,9 +336,10 @@ TEST(Warnings, KeysThatTheMethodDoesNotRead) {
     const auto warnings = [](const std::string& simulation) {
         return errors_of("carom: 1\nsimulation: {" + simulation + "}\n");
     };
-    EXPECT_EQ(warnings("step: 0.001"),
-              "t.yaml:2:20: warning: 'step' is read by the method 'fixed' only, and this scene's is "
-              "'exact'\n");
+    EXPECT_EQ(
+        warnings("step: 0.001"),
+        "t.yaml:2:20: warning: 'step' is read by the method 'fixed' only, and this scene's is "
+        "'exact'\n");
     EXPECT_EQ(warnings("method: exact, solver: quick"),
               "t.yaml:2:37: warning: 'solver' is read by the method 'fixed' only, and this scene's "
               "is 'exact'\n");

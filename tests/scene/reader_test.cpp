@@ -246,6 +246,54 @@ TEST(Reader, ReadsOverlayOptions) {
     EXPECT_EQ(overlay.labels->size_px, 9);
 }
 
+TEST(Reader, ReadsTextPeaksArrowsPlotAndTheme) {
+    const std::string balls =
+        "carom: 1\ntitle: T\nballs:\n  - {name: a, radius: 0.1, position: [0, 0, 1]}\n"
+        "  - {name: b, radius: 0.1, position: [1, 0, 1]}\n";
+    const Overlay none = scene_of(balls).overlay;
+    EXPECT_FALSE(none.title || none.peaks || none.velocity || none.plot);
+    EXPECT_EQ(none.caption, "");
+    EXPECT_EQ(none.theme, Theme::kLight);
+
+    const Overlay plain =
+        scene_of(balls + "overlay: {title: true, peaks: true, velocity: true, plot: true}").overlay;
+    EXPECT_EQ(plain.title->size_px, TitleOptions{}.size_px);
+    EXPECT_EQ(plain.peaks->size_px, PeakOptions{}.size_px);
+    EXPECT_FALSE(plain.velocity->scale_s);
+    EXPECT_EQ(plain.plot->balls, (std::vector{0, 1}));
+    EXPECT_EQ(plain.plot->corner, PlotOptions{}.corner);
+    EXPECT_EQ(plain.plot->size, PlotOptions{}.size);
+
+    const Overlay said =
+        scene_of(balls +
+                 "overlay: {title: {size_px: 30}, caption: Two balls, peaks: {size_px: 20}, "
+                 "velocity: {scale: 0.2}, plot: {ball: [b], size: [0.5, 0.25], corner: "
+                 "bottom_left}, theme: dark}")
+            .overlay;
+    EXPECT_EQ(said.title->size_px, 30);
+    EXPECT_EQ(said.caption, "Two balls");
+    EXPECT_EQ(said.peaks->size_px, 20);
+    EXPECT_EQ(said.velocity->scale_s, 0.2);
+    EXPECT_EQ(said.plot->balls, std::vector{1});
+    EXPECT_EQ(said.plot->size, (std::array{0.5, 0.25}));
+    EXPECT_EQ(said.plot->corner, Corner::kBottomLeft);
+    EXPECT_EQ(said.theme, Theme::kDark);
+}
+
+TEST(Reader, APlotShowsAtMostTwelveBallsEachOnce) {
+    const std::string many =
+        "carom: 1\nballs: [{name: c, radius: 0.1, position: [0, 0, 1], repeat: {count: [13, 1, 1], "
+        "spacing: "
+        "1}}]\n";
+    EXPECT_EQ(errors_of(many + "overlay: {plot: true}"),
+              "t.yaml:3:17: error: a plot shows at most 12 balls, and the scene has 13; name them, "
+              "such as 'plot: {ball: c_0_0_0}'\n");
+    EXPECT_EQ(scene_of(many + "overlay: {plot: {ball: c_12_0_0}}").overlay.plot->balls,
+              std::vector{12});
+    EXPECT_EQ(errors_of(many + "overlay: {plot: {ball: [c_1_0_0, c_1_0_0]}}"),
+              "t.yaml:3:34: error: the plot names the ball 'c_1_0_0' twice\n");
+}
+
 TEST(Reader, DefaultsFillWhatBallAndPresetLeaveOut) {
     const Scene scene = scene_of(
         "carom: 1\n"

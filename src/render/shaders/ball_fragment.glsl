@@ -65,9 +65,21 @@ vec3 lit(vec3 body, vec3 n, vec3 d_unit, float blur) {
 
 // Vector from the centre to the nearest point of a ray, and that point's depth; in radii.
 vec4 nearest_on_ray(vec2 pixel, vec3 d) {
+#ifdef ORTHOGRAPHIC
+    return vec4((pixel - v_ray.xy) * (u_pixel / v_ray.w), 0.0, v_ray.z);
+#endif
     vec3 w = v_ray.z * vec3((pixel - v_ray.xy) * u_pixel, 0.0) - v_offset;
     float s = dot(w, d) / dot(d, d);
     return vec4(w - d * s, v_ray.z - s);
+}
+
+// Width of a pixel at the depth t; in radii.
+float pixel_in_radii(float t) {
+#ifdef ORTHOGRAPHIC
+    return u_pixel / v_ray.w;
+#else
+    return t * u_pixel;
+#endif
 }
 
 void main() {
@@ -79,7 +91,7 @@ void main() {
     float rho = max(length(u), 1e-6), rho_picture = max(length(u.xy), 1e-6);
 
     // Distance from the outline in pixels: rho changes by 1 / size per pixel, along u.
-    float scale = nearest.w * u_pixel;  // a pixel there, in radii
+    float scale = pixel_in_radii(nearest.w);
     float size = rho / (scale * rho_picture);
     float edge = (1.0 - rho) * size;
     float alpha = coverage(edge, size, u.xy / rho_picture);
@@ -106,7 +118,7 @@ void main() {
         // How far n moves to the next point, with t the depth in radii and X a pixel on z = 1:
         // dn/dx = t (X - d^(d^.X) + d^ (u.X) / h), d^ the ray's unit vector.
         float t = nearest.w - h * inversesqrt(dot(d, d));
-        float reach = part * t * u_pixel;
+        float reach = part * pixel_in_radii(t);
         vec3 nx = reach * (vec3(1, 0, 0) + d_unit * (u.x / h - d_unit.x));
         vec3 ny = reach * (vec3(0, 1, 0) + d_unit * (u.y / h - d_unit.y));
         vec3 body = marking(n * view_from_ball, nx * view_from_ball, ny * view_from_ball);

@@ -20,7 +20,7 @@ vec3 unpacked_normal(uint bits) {
 
 void main() {
     uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
-    vec3 d = ray_through(gl_FragCoord.xy);
+    vec3 d = ray_through(gl_FragCoord.xy), start = ray_start(gl_FragCoord.xy);
     vec3 n = unpacked_normal(facts.w);
     float direct = float(facts.z & 1023u) / 1023.0;
     float ambient = float((facts.z >> 10) & 1023u) / 1023.0;
@@ -32,8 +32,9 @@ void main() {
     for (int layer = 0; layer < layers; ++layer) {
         float t = uintBitsToFloat(layer == 0 ? facts.x : facts.y);
         float part = layers == 1 ? 1.0 : (layer == 0 ? front_part : 1.0 - front_part);
-        vec3 p = t * d;
-        float blur = t * u_pixel;
+        if (t > 1e29) continue;  // the sky
+        vec3 p = start + t * d;
+        float blur = pixel_at(t);
         float key = 1.0, open = 1.0;
         for (int i = 0; i < v_list.y; ++i) {
             vec4 caster = texelFetch(u_casters, v_list.x + i);

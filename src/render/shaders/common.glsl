@@ -1,11 +1,12 @@
 // Shared by all fragment shaders: the pixel's ray, the light, the sky.
 //
 // View space: the eye is the origin, x to the right, y down, z forward, metres. Framebuffer row 0 is
-// the top row of the picture, so gl_FragCoord counts down like y. A ray is r(t) = t d with d.z = 1,
-// so that t is the depth along the view axis. Colours are linear; the framebuffer encodes sRGB.
+// the top row of the picture, so gl_FragCoord counts down like y. A ray is r(t) = start + t d with
+// d.z = 1, so that t is the depth along the view axis; start is the eye, and with ORTHOGRAPHIC the
+// pixel's own place on the plane z = 0. Colours are linear; the framebuffer encodes sRGB.
 
 uniform vec2 u_center;    // middle of the picture, pixels
-uniform float u_pixel;    // width of a pixel on the plane z = 1
+uniform float u_pixel;    // width of a pixel on the plane z = 1, or everywhere
 uniform vec3 u_up;        // world z, unit
 uniform vec3 u_light;     // towards the key light, unit
 uniform float u_light_tan;  // tangent of the key light's angular radius
@@ -18,7 +19,15 @@ const vec3 kHorizon = vec3(0.79, 0.80, 0.805);
 const vec3 kZenith = vec3(0.42, 0.54, 0.665);
 const vec3 kNadir = vec3(0.60, 0.61, 0.62);
 
+#ifdef ORTHOGRAPHIC
+vec3 ray_through(vec2 pixel) { return vec3(0.0, 0.0, 1.0); }
+vec3 ray_start(vec2 pixel) { return vec3((pixel - u_center) * u_pixel, 0.0); }
+float pixel_at(float depth) { return u_pixel; }
+#else
 vec3 ray_through(vec2 pixel) { return vec3((pixel - u_center) * u_pixel, 1.0); }
+vec3 ray_start(vec2 pixel) { return vec3(0.0); }
+float pixel_at(float depth) { return depth * u_pixel; }
+#endif
 
 // Light of sky above and of lit ground below, for a surface with normal n.
 vec3 ambient_light(vec3 n) { return mix(kGroundLight, kSkyLight, 0.5 + 0.5 * dot(n, u_up)); }

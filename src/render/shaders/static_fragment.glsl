@@ -40,7 +40,7 @@ vec3 pattern(int item, vec2 uv, vec2 extent) {
 }
 
 // Pattern coordinates and their extent: how far the point on the face moves from pixel to pixel.
-vec3 albedo(Hit hit, vec3 d, float pixel) {
+vec3 albedo(Hit hit, vec3 d, float part) {
     vec3 u = vec3(0.0), v = vec3(0.0);
     vec2 origin = vec2(0.0);
     bool is_plane = hit.item < u_counts.x;
@@ -63,9 +63,9 @@ vec3 albedo(Hit hit, vec3 d, float pixel) {
     float facing = min(dot(hit.n, d), -1e-6);
     vec3 dx = vec3(1, 0, 0) - d * (hit.n.x / facing);
     vec3 dy = vec3(0, 1, 0) - d * (hit.n.y / facing);
-    vec2 extent = hit.t * pixel *
+    vec2 extent = pixel_at(hit.t) * part *
                   vec2(length(vec2(dot(u, dx), dot(u, dy))), length(vec2(dot(v, dx), dot(v, dy))));
-    vec3 p = hit.t * d;
+    vec3 p = g_start + hit.t * d;
     return pattern(hit.item, vec2(dot(u, p), dot(v, p)) + origin, extent);
 }
 
@@ -88,15 +88,22 @@ struct Shaded {
 };
 
 // `sample_index` 0 ... 35 takes an eighth of the lamp and one height of the crevices, which differ from one
-// sample of an edge to the next; -1 takes all of them.
-Shaded shade(Hit hit, vec3 d, float pixel, int sample_index) {
+// sample of an edge to the next; -1 takes all of them. The sample is `part` of a pixel wide.
+Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
+#ifdef ORTHOGRAPHIC
+    if (hit.item <= kSection) {
+        int plane = kSection - hit.item;
+        vec3 mean = 0.5 * (surface(plane, 4).rgb + surface(plane, 5).rgb);
+        return Shaded(0.62 * (surface(plane, 4).w > 0.0 ? mean : surface(plane, 4).rgb), 0.0, 0.0);
+    }
+#endif
     if (hit.item < 0) return Shaded(background(d), 0.0, 0.0);
-    vec3 p = hit.t * d;
-    vec3 body = albedo(hit, d, pixel);
+    vec3 p = g_start + hit.t * d;
+    vec3 body = albedo(hit, d, part);
     float facing = max(dot(hit.n, u_light), 0.0);
     float tilt = min(dot(hit.n, d), -1e-3);
-    vec3 px = hit.t * pixel * (vec3(1, 0, 0) - d * (hit.n.x / tilt));
-    vec3 py = hit.t * pixel * (vec3(0, 1, 0) - d * (hit.n.y / tilt));
+    vec3 px = pixel_at(hit.t) * part * (vec3(1, 0, 0) - d * (hit.n.x / tilt));
+    vec3 py = pixel_at(hit.t) * part * (vec3(0, 1, 0) - d * (hit.n.y / tilt));
     float visible = 1.0, open = 1.0;
 #ifdef SEVERAL
     bool all = sample_index < 0;
@@ -108,10 +115,12 @@ Shaded shade(Hit hit, vec3 d, float pixel, int sample_index) {
     vec3 ambient = body * ambient_light(hit.n) * open;
 
     float fade = 0.0;
+#ifndef ORTHOGRAPHIC
     if (hit.item < u_counts.x) {
         float away = length(p) / u_fade_m;
         fade = 1.0 - exp(-away * away);
     }
+#endif
     vec3 color = mix(direct + ambient, background(d), fade);
     const vec3 kLuma = vec3(0.2126, 0.7152, 0.0722);
     float whole = max(dot(color, kLuma), 1e-6);
@@ -148,6 +157,9 @@ void main() {
             at = (vec2(float(k % edge), float(k / edge)) / float(edge - 1) - 0.5) * (5.0 / 6.0);
         }
         vec3 d = ray_through(gl_FragCoord.xy + at);
+#ifdef ORTHOGRAPHIC
+        g_start = ray_start(gl_FragCoord.xy + at);
+#endif
         Hit hit = nearest_surface(d);
 #ifdef SEVERAL
         bool whole = i == 0 && !hit.edge;
@@ -155,7 +167,7 @@ void main() {
 #else
         const bool whole = true;  // one plane has no edge
 #endif
-        Shaded s = shade(hit, d, whole ? u_pixel : 0.25 * u_pixel, whole ? -1 : max(fine, 0));
+        Shaded s = shade(hit, d, whole ? 1.0 : 0.25, whole ? -1 : max(fine, 0));
         if (i == 0) {
             t_near = t_far = hit.t;
             n_near = n_far = hit.n;

@@ -6,14 +6,21 @@ uniform samplerBuffer u_surfaces;
 uniform ivec4 u_counts;  // planes, boxes, spheres, capsules
 
 const float kFar = 1e30;
+const int kSection = -2;  // and below: the cut through plane kSection - item
 // An edge is sought this many pixels around a pixel's centre: half a pixel's diagonal and some.
 const float kEdgeReach = 0.8;
+
+#ifdef ORTHOGRAPHIC
+vec3 g_start = vec3(0.0);  // of the ray that is followed; set before nearest_surface()
+#else
+const vec3 g_start = vec3(0.0);
+#endif
 
 vec4 surface(int item, int slot) { return texelFetch(u_surfaces, item * 8 + slot); }
 
 struct Hit {
     float t;      // depth, kFar for the sky
-    int item;     // record, -1 for the sky
+    int item;     // record, -1 for the sky, kSection
     vec3 n;       // unit, towards the eye
     int axis;     // boxes: the face's axis
     bool edge;    // an edge may pass through this pixel
@@ -26,7 +33,7 @@ vec3 safe_direction(vec3 d) {
 
 // Takes a nearer surface into `hit`. Two surfaces at nearly the same depth meet in this pixel.
 void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
-    vec2 slope = -t * u_pixel * n.xy / min(dot(n, d), -1e-6);
+    vec2 slope = -pixel_at(t) * n.xy / min(dot(n, d), -1e-6);
     slope = abs(slope.x) + abs(slope.y) < kFar ? abs(slope) : vec2(kFar);
     if (abs(t - hit.t) < kEdgeReach * (slope.x + slope.y + hit.slope.x + hit.slope.y))
         hit.edge = true;
@@ -43,8 +50,15 @@ void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
 void meet_planes(inout Hit hit, vec3 d) {
     for (int i = 0; i < u_counts.x; ++i) {
         vec4 plane = surface(i, 0);
-        float toward = dot(plane.xyz, d);
-        if (toward < -1e-7) take(hit, plane.w / toward, i, plane.xyz, 0, d);
+        float toward = dot(plane.xyz, d), under = plane.w - dot(plane.xyz, g_start);
+        if (toward < -1e-7) take(hit, under / toward, i, plane.xyz, 0, d);
+#ifdef ORTHOGRAPHIC
+        // Edge-on: the ground below the plane is cut open, as far away as the sky.
+        if (abs(toward) <= 1e-7 && hit.item < 0) {
+            if (abs(under) < kEdgeReach * u_pixel) hit.edge = true;
+            if (under > 0.0) hit.item = kSection - i;
+        }
+#endif
     }
 }
 #endif
@@ -53,7 +67,7 @@ void meet_planes(inout Hit hit, vec3 d) {
 void meet_boxes(inout Hit hit, vec3 d) {
     for (int i = 0; i < u_counts.y; ++i) {
         int item = u_counts.x + i;
-        vec4 center = surface(item, 0);
+        vec4 center = surface(item, 0) - vec4(g_start, 0.0);
         vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
         vec3 half_edge = vec3(rx.w, ry.w, rz.w);
         vec3 rd = safe_direction(vec3(dot(rx.xyz, d), dot(ry.xyz, d), dot(rz.xyz, d)));
@@ -67,7 +81,7 @@ void meet_boxes(inout Hit hit, vec3 d) {
 
         // Would a box that is a pixel's width larger be met?
         float depth = min(max(abs(t_in), abs(t_out)), length(center.xyz) + center.w);
-        vec3 wider = abs(inverse_rd) * (half_edge + kEdgeReach * u_pixel * depth);
+        vec3 wider = abs(inverse_rd) * (half_edge + kEdgeReach * pixel_at(depth));
         vec3 enter_wide = middle - wider, leave_wide = middle + wider;
         float wide_in = max(max(enter_wide.x, enter_wide.y), enter_wide.z);
         float wide_out = min(min(leave_wide.x, leave_wide.y), leave_wide.z);
@@ -83,7 +97,7 @@ void meet_boxes(inout Hit hit, vec3 d) {
             vec3 px = vec3(rx.x, ry.x, rz.x), py = vec3(rx.y, ry.y, rz.y);
             vec3 step_px = abs(px - rd * (dot(px, along) / rd_axis)) +
                            abs(py - rd * (dot(py, along) / rd_axis));
-            vec3 inside = half_edge - abs(ro + t_in * rd) - kEdgeReach * u_pixel * t_in * step_px +
+            vec3 inside = half_edge - abs(ro + t_in * rd) - kEdgeReach * pixel_at(t_in) * step_px +
                           along * kFar;
             bool border = min(min(inside.x, inside.y), inside.z) < 0.0;
             if (t_in < hit.t && border) hit.edge = true;
@@ -100,13 +114,13 @@ void meet_spheres(inout Hit hit, vec3 d) {
     float dd = dot(d, d);
     for (int i = 0; i < u_counts.z; ++i) {
         int item = u_counts.x + u_counts.y + i;
-        vec4 sphere = surface(item, 0);
+        vec4 sphere = surface(item, 0) - vec4(g_start, 0.0);
         float middle = dot(sphere.xyz, d) / dd;
         vec3 across = sphere.xyz - d * middle;
         float q = dot(across, across);
         float reach = sphere.w * sphere.w - q;
         float t = middle - sqrt(max(reach, 0.0) / dd);
-        if (abs(sqrt(q) - sphere.w) < kEdgeReach * u_pixel * middle && t < hit.t) hit.edge = true;
+        if (abs(sqrt(q) - sphere.w) < kEdgeReach * pixel_at(middle) && t < hit.t) hit.edge = true;
         if (reach > 0.0 && t > 0.0)
             take(hit, t, item, (t * d - sphere.xyz) / sphere.w, 0, d);
     }
@@ -128,7 +142,7 @@ void meet_capsules(inout Hit hit, vec3 d) {
     float dd = dot(d, d);
     for (int i = 0; i < u_counts.w; ++i) {
         int item = u_counts.x + u_counts.y + u_counts.z + i;
-        vec4 a = surface(item, 0);
+        vec4 a = surface(item, 0) - vec4(g_start, 0.0);
         vec3 b = surface(item, 1).xyz;
         vec2 nearest = ray_to_segment(d, a.xyz, b);
         // The cylinder: |p - axis|^2 = r^2, with everything projected across the axis.
@@ -151,7 +165,7 @@ void meet_capsules(inout Hit hit, vec3 d) {
             float reach = a.w * a.w - dot(across, across);
             if (reach > 0.0) t = min(t, middle - sqrt(reach / dd));
         }
-        if (abs(nearest.x - a.w) < kEdgeReach * u_pixel * nearest.y && nearest.y - a.w < hit.t)
+        if (abs(nearest.x - a.w) < kEdgeReach * pixel_at(nearest.y) && nearest.y - a.w < hit.t)
             hit.edge = true;
         if (t > 0.0 && t < kFar) {
             vec3 p = t * d - a.xyz;

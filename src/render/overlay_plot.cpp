@@ -1,0 +1,290 @@
+#include "render/overlay_plot.h"
+
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/overlay_labels.h"
+#include "render/overlay_trail.h"
+
+namespace carom {
+
+namespace {
+
+using Rect = OverlayPainter::Rect;
+
+constexpr double kLettersPx = 12;  // at 720
+constexpr double kLinePx = 1.8;    // width of a curve, at 720
+constexpr double kDotPx = 3.6;     // radius, at 720
+constexpr double kOpacity = 0.95;
+
+int whole(double px) { return static_cast<int>(std::ceil(px)); }
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
+double step_at_least(double least) {
+    const double power = std::pow(10, std::floor(std::log10(least)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (digit * power >= least * (1 - 1e-9)) return digit * power;
+    return 10 * power;
+}
+
+std::string number_text(double value, double step) {
+    const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+    const std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
+    return value < -0.5 * step ? "\u2212" + text : text;
+}
+
+struct Interval {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+    void add(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+};
+
+/// What the heights of one ball reach: at the ends of its pieces and where it turns.
+void add_heights(const Trajectory& path, double radius, double first, double last,
+                 Interval& heights) {
+    const auto& pieces = path.pieces();
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const double end = i + 1 < pieces.size() ? std::min(pieces[i + 1].start, last) : last;
+        const double begin = std::max(pieces[i].start, first);
+        if (begin > end) continue;
+        heights.add(pieces[i].position_at(begin).z() - radius);
+        heights.add(pieces[i].position_at(end).z() - radius);
+        const double fall = pieces[i].acceleration.z();
+        const double top = fall != 0 ? pieces[i].start - pieces[i].velocity.z() / fall : begin;
+        if (top > begin && top < end) heights.add(pieces[i].position_at(top).z() - radius);
+    }
+}
+
+}  // namespace
+
+PlotAxes choose_plot_axes(const Scene& scene, const Motion& motion, double most_lines_s,
+                          double most_lines_m) {
+    PlotAxes axes;
+    axes.first_s = scene.film.start;
+    axes.high_m = axes.low_m = 0;
+    Interval heights;
+    for (const int ball : scene.overlay.plot->balls) {
+        const auto i = static_cast<std::size_t>(ball);
+        add_heights(motion.balls[i], scene.balls[i].radius, axes.first_s, motion.duration, heights);
+    }
+    constexpr double kNearZero = 0.6;  // of the far end: then the axis starts at 0
+    if (heights.low > 0 && heights.low < kNearZero * heights.high) heights.low = 0;
+    if (heights.high < 0 && heights.high > kNearZero * heights.low) heights.high = 0;
+    // What does not move gets an axis of its own size.
+    const double least = 1e-6 * std::max({std::abs(heights.low), std::abs(heights.high), 1.0});
+    axes.step_m = step_at_least(std::max(heights.high - heights.low, least) / most_lines_m);
+    constexpr double kRounding = 1e-9;  // of a step: 2.0000000001 m ends at the line of 2 m
+    axes.low_m = axes.step_m * std::floor(heights.low / axes.step_m + kRounding);
+    axes.high_m = axes.step_m * std::ceil(heights.high / axes.step_m - kRounding);
+    if (axes.high_m <= axes.low_m) axes.high_m = axes.low_m + axes.step_m;
+    axes.step_s = step_at_least(std::max(motion.duration - axes.first_s, 1e-9) / most_lines_s);
+    return axes;
+}
+
+OverlayPlot::OverlayPlot(const Scene& scene, const Motion& motion, int width_px, int height_px,
+                         const std::vector<Rect>& taken, const Palette& palette,
+                         const std::string& font_family)
+    : scene_(scene),
+      motion_(motion),
+      palette_(palette),
+      font_(font_family, letters_px(kLettersPx, height_px)),
+      unit_(std::max(overlay_px(1, height_px), 0.55)) {
+    choose_place(taken, width_px, height_px);
+    const double size = font_.size_px();
+    top_px_ = 2.1 * size;
+    bottom_px_ = rect_.height - 2.1 * size;
+    right_px_ = rect_.width - 1.0 * size;
+    const PlotAxes rough =
+        choose_plot_axes(scene, motion, 5, std::max(1.0, (bottom_px_ - top_px_) / (2.6 * size)));
+    double widest = 0;
+    for (const double height : {rough.low_m, rough.high_m})
+        widest = std::max(widest, font_.lay_out(number_text(height, rough.step_m)).width_px);
+    left_px_ = std::round(widest + 1.1 * size);
+    const double number_s =
+        font_.lay_out(number_text(motion.duration, 0.1 * rough.step_s)).width_px + 2.0 * size;
+    const PlotAxes axes =
+        choose_plot_axes(scene, motion, std::max(1.0, (right_px_ - left_px_) / number_s),
+                         std::max(1.0, (bottom_px_ - top_px_) / (2.6 * size)));
+    scale_.left_s = axes.first_s;
+    scale_.bottom_m = axes.low_m;
+    scale_.px_per_s = (right_px_ - left_px_) / std::max(motion.duration - axes.first_s, 1e-9);
+    scale_.px_per_m = (bottom_px_ - top_px_) / (axes.high_m - axes.low_m);
+    scale_.origin_px = Vec2(left_px_, bottom_px_);
+    for (const int ball : scene.overlay.plot->balls) {
+        const int look = scene.balls[static_cast<std::size_t>(ball)].look;
+        inks_.push_back(
+            trail_ink(scene.looks[static_cast<std::size_t>(look)], scene.overlay.theme));
+    }
+    curves_.emplace(rect_.width, rect_.height, inks_);
+    draw_plate(axes);
+    start_over();
+}
+
+void OverlayPlot::choose_place(const std::vector<Rect>& taken, int width_px, int height_px) {
+    const PlotOptions& options = *scene_.overlay.plot;
+    const int border = whole(std::max(overlay_px(18, height_px), 5.0));
+    const bool at_left =
+        options.corner == Corner::kTopLeft || options.corner == Corner::kBottomLeft;
+    const bool at_top = options.corner == Corner::kTopLeft || options.corner == Corner::kTopRight;
+    // Room for a few numbers on each axis, however small the picture.
+    const double least = 7 * font_.size_px();
+    rect_.width =
+        std::min(whole(std::max(options.size[0] * width_px, 1.5 * least)), width_px - 2 * border);
+    rect_.height =
+        std::min(whole(std::max(options.size[1] * height_px, least)), height_px - 2 * border);
+    rect_.x = at_left ? border : width_px - border - rect_.width;
+    rect_.y = at_top ? border : height_px - border - rect_.height;
+    for (std::size_t turn = 0; turn < taken.size(); ++turn)
+        for (const Rect& other : taken)
+            if (rect_.overlaps(other))
+                rect_.y = at_top ? other.y + other.height + border / 2
+                                 : other.y - rect_.height - border / 2;
+    rect_.y = std::clamp(rect_.y, 0, std::max(height_px - rect_.height, 0));
+}
+
+void OverlayPlot::draw_plate(const PlotAxes& axes) {
+    plate_ = Image(rect_.width, rect_.height);
+    Canvas canvas(plate_);
+    cairo_t* c = canvas.context();
+    const double size = font_.size_px();
+    canvas.round_rect(0.5, 0.5, rect_.width - 1, rect_.height - 1, 0.5 * size);
+    canvas.use(with_alpha(palette_.paper, 0.86));
+    cairo_fill_preserve(c);
+    canvas.use(with_alpha(palette_.ink, 0.14));
+    cairo_set_line_width(c, 1);
+    cairo_stroke(c);
+    draw_grid(canvas, axes);
+    font_.draw(canvas, font_.lay_out("height, m"), 0.7 * size, std::round(1.35 * size),
+               palette_.ink);
+    if (scene_.overlay.plot->balls.size() > 1) draw_names(canvas);
+    canvas.finish();
+}
+
+void OverlayPlot::draw_grid(Canvas& canvas, const PlotAxes& axes) const {
+    cairo_t* c = canvas.context();
+    const double size = font_.size_px(), cap = font_.cap_height_px();
+    const double line = std::max(unit_, 1.0);
+    const auto stroke = [&](const Vec2& from, const Vec2& to, double alpha) {
+        // On whole pixels, so that level and upright lines stay sharp.
+        const double shift = std::fmod(std::round(line), 2) == 1 ? 0.5 : 0;
+        cairo_move_to(c, std::floor(from.x()) + shift, std::floor(from.y()) + shift);
+        cairo_line_to(c, std::floor(to.x()) + shift, std::floor(to.y()) + shift);
+        canvas.use(with_alpha(palette_.ink, alpha));
+        cairo_set_line_width(c, std::round(line));
+        cairo_stroke(c);
+    };
+    const TextRun unit_s = font_.lay_out("t, s");
+    const double unit_x = right_px_ - unit_s.width_px;
+    const double row = std::round(bottom_px_ + 0.55 * size + cap);
+    font_.draw(canvas, unit_s, unit_x, row, palette_.ink);
+    const double last_s = axes.first_s + (right_px_ - left_px_) / scale_.px_per_s;
+    for (double k = std::ceil(axes.first_s / axes.step_s - 1e-9);
+         k * axes.step_s <= last_s + 1e-9 * axes.step_s; ++k) {
+        const double t = k * axes.step_s, x = scale_.px(t, axes.low_m).x();
+        stroke({x, top_px_}, {x, bottom_px_}, 0.13);
+        const TextRun number = font_.lay_out(number_text(t, axes.step_s));
+        const double begin = x - 0.5 * number.width_px;
+        if (begin + number.width_px + 0.4 * size < unit_x)
+            font_.draw(canvas, number, begin, row, palette_.ink);
+    }
+    for (double k = std::round(axes.low_m / axes.step_m);
+         k * axes.step_m <= axes.high_m * (1 + 1e-9); ++k) {
+        const double height = k * axes.step_m, y = scale_.px(axes.first_s, height).y();
+        stroke({left_px_, y}, {right_px_, y}, 0.13);
+        const TextRun number = font_.lay_out(number_text(height, axes.step_m));
+        font_.draw(canvas, number, left_px_ - 0.45 * size - number.width_px,
+                   std::round(y + 0.5 * cap), palette_.ink);
+    }
+    stroke({left_px_, top_px_}, {left_px_, bottom_px_}, 0.7);
+    stroke({left_px_, bottom_px_}, {right_px_, bottom_px_}, 0.7);
+}
+
+/// The balls' names with their colours, at the upper right of the axes; only if all have room.
+void OverlayPlot::draw_names(Canvas& canvas) const {
+    const double size = font_.size_px(), pitch = 1.35 * size, dash = 1.3 * size;
+    double widest = 0;
+    for (const int ball : scene_.overlay.plot->balls) {
+        const std::string& name = scene_.balls[static_cast<std::size_t>(ball)].name;
+        widest = std::max(widest, font_.lay_out(label_text(name)).width_px);
+    }
+    const double width = widest + dash + 0.9 * size;
+    const double height = pitch * static_cast<double>(inks_.size()) + 0.3 * size;
+    if (width > 0.6 * (right_px_ - left_px_) || height > bottom_px_ - top_px_) return;
+    cairo_t* c = canvas.context();
+    const double x = right_px_ - width;
+    cairo_rectangle(c, x, top_px_, width, height);
+    canvas.use(with_alpha(palette_.paper, 0.85));
+    cairo_fill(c);
+    double y = top_px_ + 0.15 * size + 0.5 * pitch;
+    for (std::size_t i = 0; i < inks_.size(); ++i, y += pitch) {
+        cairo_move_to(c, x + 0.2 * size, std::round(y));
+        cairo_line_to(c, x + 0.2 * size + dash, std::round(y));
+        canvas.use(inks_[i]);
+        cairo_set_line_width(c, std::max(kLinePx * unit_, 1.0) * 1.3);
+        cairo_stroke(c);
+        const int ball = scene_.overlay.plot->balls[i];
+        const std::string& name = scene_.balls[static_cast<std::size_t>(ball)].name;
+        font_.draw(canvas, font_.lay_out(label_text(name)), x + dash + 0.6 * size,
+                   std::round(y + 0.5 * font_.cap_height_px()), palette_.ink);
+    }
+}
+
+void OverlayPlot::start_over() {
+    lines_.clear();
+    for (const int ball : scene_.overlay.plot->balls) {
+        const auto i = static_cast<std::size_t>(ball);
+        lines_.push_back(
+            {PlotCurve(motion_.balls[i], scene_.balls[i].radius, scale_, motion_.duration), {}});
+    }
+}
+
+void OverlayPlot::segment(std::size_t i, const TrailPoint& to, bool for_good) {
+    const double half = 0.5 * std::max(kLinePx * unit_, 1.0);
+    curves_->draw({static_cast<int>(i), lines_[i].last->px, to.px, kOpacity, kOpacity, half},
+                  for_good);
+}
+
+void OverlayPlot::draw(double t, Image& picture) {
+    t = std::clamp(t, scene_.film.start, std::max(motion_.duration, scene_.film.start));
+    curves_->take_back();
+    if (t < last_) {
+        start_over();
+        curves_->clear();
+    }
+    last_ = t;
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+        while (const auto corner = lines_[i].curve.next(t)) {
+            if (lines_[i].last) segment(i, *corner, true);
+            lines_[i].last = corner;
+        }
+    // From the last corner to the ball: replaced by what the next corner makes of it. Only after
+    // all that stays, which would otherwise be taken back with it.
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+        if (lines_[i].last) segment(i, lines_[i].curve.at(t), false);
+    lay_over(plate_, rect_.x, rect_.y, picture);
+    lay_over(curves_->picture(), rect_.x, rect_.y, picture);
+
+    Canvas canvas(picture);
+    cairo_t* c = canvas.context();
+    for (std::size_t i = lines_.size(); i-- > 0;) {
+        const Vec2 at = lines_[i].curve.at(t).px;
+        cairo_new_sub_path(c);
+        cairo_arc(c, rect_.x + at.x(), rect_.y + at.y(), kDotPx * unit_, 0, 2 * std::numbers::pi);
+        canvas.use(palette_.paper);
+        cairo_set_line_width(c, 1.6 * unit_);
+        cairo_stroke_preserve(c);
+        canvas.use(inks_[i]);
+        cairo_fill(c);
+    }
+    canvas.finish();
+}
+
+}  // namespace carom
