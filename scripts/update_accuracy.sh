@@ -18,12 +18,14 @@ trap 'rm -rf "$made"' EXIT
 
 build/bench/bench/hard_cases --out "$made" | tee "$made/log"
 build/bench/bench/simbenchmark --finest "$finest" --out "$made"
-mkdir -p docs/accuracy
+mkdir -p docs/accuracy "$made/scenes"
+scripts/gallery_accuracy.sh "$PWD/build/bench/carom" "$made/scenes" > "$made/gallery.md"
+for scene in figure8 capsule_rail; do cp "$made/scenes/$scene/accuracy.svg" "$made/scene_$scene.svg"; done
 cp "$made"/*.svg "$made"/*.csv docs/accuracy/
 echo "Made $(date -u +%Y-%m-%d) on $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(g++ --version | head -n 1), $(head -n 1 "$made/log")." > "$made/environment.md"
 
 # Each block stands between two markers.
-for block in environment hard_cases hard_cases_failures simbenchmark_targets \
+for block in environment gallery hard_cases hard_cases_failures simbenchmark_targets \
              simbenchmark_bouncing simbenchmark_elastic_666 simbenchmark_666; do
     awk -v begin="<!-- $block:begin -->" -v end="<!-- $block:end -->" -v file="$made/$block.md" '
         $0 == end {skip = 0}
