@@ -12,7 +12,9 @@ git ls-files 'src/*.cpp' 'src/*.h' 'tests/*.cpp' 'bench/*.cpp' | xargs clang-for
 echo "test_long: lint"
 git ls-files 'src/*.cpp' | xargs -P "$(nproc)" -n 4 clang-tidy --quiet -p build/dev
 
-for preset in dev tsan; do
+cmake --preset asan
+cmake --build --preset asan-all
+for preset in dev tsan asan-all; do
     echo "test_long: preset $preset"
     ctest --preset "$preset" -j "$(nproc)"
 done
