@@ -213,7 +213,7 @@ struct Overlay {
     std::optional<TrailOptions> trail;
     std::optional<LabelOptions> labels;
     std::optional<TitleOptions> title{};  ///< of Scene::title
-    std::string caption{};  ///< "" for none
+    std::string caption{};                ///< "" for none
     std::optional<PeakOptions> peaks{};
     std::optional<VelocityOptions> velocity{};
     std::optional<PlotOptions> plot{};
