@@ -10,6 +10,9 @@ namespace carom {
 
 namespace {
 
+/// Room that a trajectory begins with: hardly any has one piece only.
+constexpr std::size_t kFirstPieces = 8;
+
 /// exp(v) as a quaternion: a turn by |v| rad about v.
 Quat rotation(const Vec3& v) {
     const double angle = v.norm();
@@ -75,6 +78,8 @@ void Trajectory::append(const Piece& piece) {
         CAROM_CHECK(piece.start, >=, pieces_.back().start);
         if (piece.start == pieces_.back().start) pieces_.pop_back();
     }
+    if (pieces_.size() == pieces_.capacity())
+        pieces_.reserve(std::max(kFirstPieces, 2 * pieces_.size()));
     pieces_.push_back(piece);
 }
 

@@ -37,10 +37,10 @@ struct Piece {
     Vec3 position = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 acceleration = Vec3::Zero();
+    OptionalCurve curve = {};  ///< here, so that what a place takes lies together
     Quat orientation = Quat::Identity();
     Vec3 spin = Vec3::Zero();
     Vec3 spin_rate = Vec3::Zero();
-    OptionalCurve curve = {};
 
     // t in seconds of the motion, not since start.
     BallState at(double t) const;

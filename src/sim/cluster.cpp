@@ -20,6 +20,9 @@ constexpr double kResolved = 1e-13;
 /// to the largest of those.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
+/// A gap above this part of the places is none of a contact, well above all roundings.
+constexpr double kFar = 1e-6;
+
 }  // namespace
 
 // ---- Seeds
@@ -70,7 +73,7 @@ void Cluster::add_ball(int ball) {
     if (has(ball)) return;
     place_[static_cast<std::size_t>(ball)] = static_cast<int>(balls_.size());
     balls_.push_back(ball);
-    const Ball& b = world_.body(ball);
+    const ExactBall& b = world_.ball(ball);
     const Velocities now = world_.velocities(ball, time_);
     bodies_.push_back({world_.position(ball, time_), now, b.mass,
                        b.inertia_factor * b.mass * b.radius * b.radius});
@@ -117,7 +120,12 @@ void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
 }
 
 void Cluster::touch_surfaces(int ball) {
+    const Vec3 x = bodies_[index_of(ball)].position;
+    const double radius = world_.ball(ball).radius;
     for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
+        // Far surfaces are the common case, as far balls are below.
+        const Nearest nearest = nearest_on_surface(x, radius, world_.surface(s).shape);
+        if (nearest.gap > kFar * (radius + x.cwiseAbs().maxCoeff())) continue;
         if (is_known(ball, {true, s})) continue;
         const Contact contact = world_.contact_at(ball, {true, s}, time_);
         if (world_.touches(contact, time_)) add(contact);
@@ -127,12 +135,12 @@ void Cluster::touch_surfaces(int ball) {
 void Cluster::touch_balls(int ball) {
     const std::size_t place = index_of(ball);
     const Vec3 x = bodies_[place].position;
-    const double radius = world_.body(ball).radius;
+    const double radius = world_.ball(ball).radius;
     world_.for_each_touching(ball, x, [&](int other) {
         if (has(other) && index_of(other) < place) return;  // looked at from the other side
         if (world_.ball(other).crowded) return;             // met by steps of its own
         // Far pairs are the common case: a little more than the sum of the radii excludes them.
-        const double reach = 1.001 * (radius + world_.body(other).radius);
+        const double reach = 1.001 * (radius + world_.ball(other).radius);
         const Vec3 y = world_.position(other, time_);
         if ((x - y).squaredNorm() > reach * reach + 1e-9 * x.squaredNorm()) return;
         const Contact contact = world_.contact_at(ball, {false, other}, time_);
@@ -199,14 +207,41 @@ void Cluster::solve(ImpactSolver& solver, bool inelastic, double enough,
     }
 }
 
-void Cluster::end_impacts(std::vector<Contact>& impacts) const {
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
+void Cluster::end_impacts(std::vector<Contact>& impacts) {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        contacts_[i].separation_speed = -approach(contacts_[i]);
         if (const int entry = impact_of_[i]; entry >= 0)
             impacts[static_cast<std::size_t>(entry)].separation_speed =
-                std::max(-approach(contacts_[i]), 0.0);
+                std::max(contacts_[i].separation_speed, 0.0);
+    }
+}
+
+/// The common case, without rounds: nothing else hangs on the contact.
+void Cluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts,
+                             const Limits& limits) {
+    Contact& contact = contacts_.front();
+    first_approach_ = approach(contact);
+    contact.separation_speed = -first_approach_;
+    if (!(first_approach_ > std::max(kRounding * largest_speed_, limits.enough))) return;
+    solver_contacts_.assign(1, contact);
+    Contact& solved = solver_contacts_.front();
+    solved.ball = static_cast<int>(index_of(contact.ball));
+    if (!contact.other.is_surface)
+        solved.other.index = static_cast<int>(index_of(contact.other.index));
+    solver.solve(bodies_, solver_contacts_, time_);
+    contact.separation_speed = solved.separation_speed;
+    solved.ball = contact.ball;
+    solved.other = contact.other;
+    solved.impact = true;
+    solved.separation_speed = std::max(solved.separation_speed, 0.0);
+    impacts.push_back(solved);
 }
 
 void Cluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits) {
+    if (contacts_.size() == 1) {
+        resolve_single(solver, impacts, limits);
+        return;
+    }
     impact_of_.assign(contacts_.size(), -1);
     for (std::size_t round = 0;; ++round) {
         speeds_.clear();
@@ -233,7 +268,6 @@ void Cluster::contacts_of(int ball, std::vector<Contact>& result) const {
     for (const Contact& c : contacts_) {
         if (c.ball != ball && (c.other.is_surface || c.other.index != ball)) continue;
         result.push_back(c);
-        result.back().separation_speed = -approach(c);
     }
 }
 

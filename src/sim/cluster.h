@@ -63,7 +63,7 @@ class Cluster {
 
     const std::vector<int>& balls() const { return balls_; }
     const ImpactBody& body(int ball) const { return bodies_[index_of(ball)]; }
-    /// The contacts of one ball, as they are after resolve().
+    /// The contacts of one ball, with the separation speeds that resolve() left.
     void contacts_of(int ball, std::vector<Contact>& result) const;
     std::vector<Contact> contacts_of(int ball) const;
     /// The largest approach speed at the beginning, m/s.
@@ -84,7 +84,8 @@ class Cluster {
     double approach(const Contact& contact) const;
     void choose(double slowest);
     void solve(ImpactSolver& solver, bool inelastic, double enough, std::vector<Contact>& impacts);
-    void end_impacts(std::vector<Contact>& impacts) const;
+    void resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits);
+    void end_impacts(std::vector<Contact>& impacts);
 
     ExactWorld& world_;
     double time_ = 0;

@@ -77,7 +77,7 @@ void Crowd::take(int ball, double now, double wake_speed, const Links& links) {
     b.lone_steps = 0;
     b.calm_seconds = 0;
     b.at = world_.state(ball, now);
-    const Ball& body = world_.body(ball);
+    const ExactBall& body = world_.ball(ball);
     bodies_[static_cast<std::size_t>(ball)] = {b.at.velocity, body.radius * b.at.spin,
                                                1 / body.mass, 1 / (body.inertia_factor * body.mass),
                                                0};
@@ -116,12 +116,12 @@ void Crowd::tidy() {
 void Crowd::add_pairs_of(int ball, double now, const Links& links, bool slept) {
     const std::size_t first = pairs_.size();
     const Vec3 x = position_of(ball, now);
-    const Ball& body = world_.body(ball);
+    const ExactBall& body = world_.ball(ball);
     const auto add = [&](int a, const Partner& partner, int material) {
         CrowdPair pair;
         pair.ball = a;
         pair.other = partner;
-        const PairProperties both = world_.pair(world_.body(a).material, material);
+        const PairProperties both = world_.pair(world_.ball(a).material, material);
         pair.restitution = both.restitution;
         pair.friction = both.friction;
         if (const Link* link = links.find(a, partner)) {
@@ -143,9 +143,9 @@ void Crowd::add_pairs_of(int ball, double now, const Links& links, bool slept) {
     }
     const auto near = [&](int other) {
         if (of(other).member && !of(other).asleep) return;
-        const double reach = skin_ + body.radius + world_.body(other).radius;
+        const double reach = skin_ + body.radius + world_.ball(other).radius;
         if ((x - position_of(other, now)).squaredNorm() >= reach * reach) return;
-        add(std::min(ball, other), {false, std::max(ball, other)}, world_.body(other).material);
+        add(std::min(ball, other), {false, std::max(ball, other)}, world_.ball(other).material);
     };
     if (world_.balls_can_meet && world_.grid)
         world_.grid->for_each_touching(ball, x, body.radius + skin_, near);
@@ -179,7 +179,7 @@ void Crowd::find_pairs(double now, const Links& links) {
 /// Where the two stand, and how fast they close.
 void Crowd::look_at(CrowdPair& pair, double now) {
     const Vec3 x = position_of(pair.ball, now), v = velocity_of(pair.ball, now);
-    const double radius = world_.body(pair.ball).radius;
+    const double radius = world_.ball(pair.ball).radius;
     if (pair.other.is_surface) {
         const Nearest nearest =
             nearest_on_surface(x, radius, world_.surface(pair.other.index).shape);
@@ -190,7 +190,7 @@ void Crowd::look_at(CrowdPair& pair, double now) {
         const Vec3 apart = x - position_of(pair.other.index, now);
         const double distance = apart.norm();
         pair.normal = distance > 0 ? Vec3(apart / distance) : Vec3::UnitZ();
-        pair.gap = distance - radius - world_.body(pair.other.index).radius;
+        pair.gap = distance - radius - world_.ball(pair.other.index).radius;
         pair.closing = -(v - velocity_of(pair.other.index, now)).dot(pair.normal);
     }
     if (pair.closing * longest_ <= pair.gap) return;
@@ -221,7 +221,7 @@ bool Crowd::draws_in(const CrowdPair& pair, double now, const Links& links,
         if (sleeps(ball)) {
             const double speed = std::max(pair.closing, 0.5 * of(by).wake_speed);
             const bool hit = pair.gap < slack_ && speed > slow_speed();
-            const double weight = world_.body(ball).mass * world_.scene.simulation.gravity.norm();
+            const double weight = world_.ball(ball).mass * world_.scene.simulation.gravity.norm();
             draws = hit || parted || pair.force > kWakeLoad * (it.load + weight);
             wake_speed = hit ? speed : 0;
         }
@@ -240,7 +240,7 @@ void Crowd::gather(double now, const Links& links, std::vector<int>& taken) {
         b.wake_speed = 0;
         CrowdBody& as_body = body(ball);
         as_body.velocity = b.at.velocity;
-        as_body.rim = world_.body(ball).radius * b.at.spin;
+        as_body.rim = world_.ball(ball).radius * b.at.spin;
     }
     double fastest = 0;
     for (int i = 0; i < static_cast<int>(balls_.size()); ++i)

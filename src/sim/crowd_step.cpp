@@ -77,7 +77,7 @@ void Crowd::aim_at_mid_step(CrowdRow& row, const CrowdPair& pair) const {
     }
     const SurfaceShape& shape = world_.surface(pair.other.index).shape;
     if (std::holds_alternative<PlaneShape>(shape)) return;
-    row.normal = nearest_on_surface(x, world_.body(pair.ball).radius, shape).normal;
+    row.normal = nearest_on_surface(x, world_.ball(pair.ball).radius, shape).normal;
 }
 
 void Crowd::build_rows() {
@@ -132,7 +132,7 @@ void Crowd::solve_impacts() {
 void Crowd::solve_forces() {
     const double before = kinetic_energy();
     for (const int ball : awake_)
-        of(ball).started = {body(ball).velocity, body(ball).rim / world_.body(ball).radius};
+        of(ball).started = {body(ball).velocity, body(ball).rim / world_.ball(ball).radius};
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const CrowdPair& pair = pairs_[active_[k]];
         CrowdRow& row = rows_[k];
@@ -185,7 +185,7 @@ void Crowd::part_overlaps(double budget) {
     if (!any) return;
     double rise = 0;
     for (const int ball : awake_)
-        rise -= world_.body(ball).mass *
+        rise -= world_.ball(ball).mass *
                 world_.scene.simulation.gravity.dot(shift_[static_cast<std::size_t>(ball)]);
     const double most = std::max(budget, 0.0);
     const double factor = rise > most ? most / rise : 1;
@@ -205,7 +205,7 @@ void Crowd::solve() {
     part_overlaps(kOverlapBudget * lost);
     for (const int ball : awake_) {
         CrowdBall& b = of(ball);
-        b.after = {body(ball).velocity, body(ball).rim / world_.body(ball).radius};
+        b.after = {body(ball).velocity, body(ball).rim / world_.ball(ball).radius};
         b.near = 0;
         b.pushed = false;
     }

@@ -37,6 +37,7 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
       end_(end),
       links_(scene.balls.size()),
       crowd_(world_),
+      due_(scene.balls.size()),
       next_(scene.balls.size()),
       meeting_(meeting_of(scene, world_.pairs, end)),
       cluster_(world_),
@@ -65,21 +66,31 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
 
 bool ExactRun::current(const Prediction& p) const { return world_.ball(p.ball).stamp == p.stamp; }
 
+/// What the ball's entry in the list of events stands for.
+Prediction ExactRun::due(int ball) const {
+    Prediction p = next_[static_cast<std::size_t>(ball)];
+    if (p.leaves_cell < p.time) {
+        p.time = p.leaves_cell;
+        p.kind = PredictionKind::kCell;
+    }
+    return p;
+}
+
 void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progress,
                    bool until_rest) {
     double last = -1;
     int at_one_instant = 0;
-    for (std::int64_t events = 0; !queue_.empty() || next_step_ <= end_; ++events) {
+    for (std::int64_t events = 0;; ++events) {
+        const Due* first = due_.first();
+        const bool step = first == nullptr || next_step_ <= first->time;
+        if ((step ? next_step_ : first->time) > end_) break;
         Prediction next;
-        if (!queue_.empty()) next = queue_.top();
-        const bool step = queue_.empty() || next_step_ <= next.time;
         if (step) {
             next.time = next_step_;
             next.ball = crowd_.awake().empty() ? 0 : crowd_.awake().front();
-        }
-        if (next.time > end_) break;
-        if (!step) {
-            queue_.pop();
+        } else {
+            next = due(first->ball);
+            due_.pop();
             if (!current(next)) continue;
         }
         at_one_instant = next.time > last ? 0 : at_one_instant + 1;
@@ -111,9 +122,11 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
 /// The next prediction, and the others of its instant.
 void ExactRun::take_together(const Prediction& next) {
     together_.assign(1, next);
-    while (!queue_.empty() && queue_.top().time <= next.time * (1 + kSameInstant)) {
-        if (current(queue_.top())) together_.push_back(queue_.top());
-        queue_.pop();
+    for (const Due* other = due_.first();
+         other != nullptr && other->time <= next.time * (1 + kSameInstant); other = due_.first()) {
+        const Prediction p = due(other->ball);
+        if (current(p)) together_.push_back(p);
+        due_.pop();
     }
 }
 
@@ -194,8 +207,10 @@ Contact ExactRun::contact_met(const Prediction& p, double now) {
         const double lost = p.seconds - (now - b.piece.start);
         b.piece.position += lost * world_.velocities(p.ball, now).linear;
         b.piece.velocity += lost * b.piece.acceleration;
-        const Contact rounded = world_.contact_at(p.ball, p.partner, now);
-        b.piece.position += rounded.depth * rounded.normal;
+        Contact met = world_.contact_at(p.ball, p.partner, now);
+        b.piece.position += met.depth * met.normal;
+        met.depth = 0;
+        return met;
     }
     return world_.contact_at(p.ball, p.partner, now);
 }
@@ -252,7 +267,7 @@ void ExactRun::row(double now, EventKind kind, int ball) {
     e.other = {true, b.surface};
     e.kind = kind;
     e.normal = b.normal;
-    e.point = world_.state(ball, now).position - world_.body(ball).radius * b.normal;
+    e.point = world_.state(ball, now).position - world_.ball(ball).radius * b.normal;
     motion_.events.push_back(e);
 }
 

@@ -55,10 +55,10 @@ bool ExactRun::stand_together(int ball, double now) {
     std::vector<int> group = {ball};
     for (std::size_t k = 0; k < group.size() && group.size() < kManyBalls; ++k) {
         const Vec3 x = world_.position(group[k], now);
-        const double radius = world_.body(group[k]).radius;
+        const double radius = world_.ball(group[k]).radius;
         world_.for_each_near(group[k], [&](int other) {
-            const double reach = radius + world_.body(other).radius +
-                                 kTogether * std::min(radius, world_.body(other).radius);
+            const double reach = radius + world_.ball(other).radius +
+                                 kTogether * std::min(radius, world_.ball(other).radius);
             if ((world_.position(other, now) - x).squaredNorm() > reach * reach) return;
             if (std::find(group.begin(), group.end(), other) == group.end()) group.push_back(other);
         });
@@ -139,7 +139,7 @@ void ExactRun::leave_crowd(int ball, double now) {
     CrowdBall& c = crowd_.of(ball);
     const Velocities velocities = c.started;
     if (c.near <= 1 && leaves_crowd_alone(ball, now, velocities)) return;
-    const double calm = kCalmFraction * 0.5 * crowd_.slow_speed(), r = world_.body(ball).radius;
+    const double calm = kCalmFraction * 0.5 * crowd_.slow_speed(), r = world_.ball(ball).radius;
     const bool is_calm =
         c.started.linear.norm() < calm && c.after.linear.norm() < calm &&
         (r * c.after.spin.norm() < calm || r * (c.after.spin - c.started.spin).norm() < 0.1 * calm);
@@ -180,7 +180,7 @@ bool ExactRun::leaves_crowd_alone(int ball, double now, const Velocities& veloci
     Contact contact;
     if (floor != nullptr) {
         contact = world_.contact_at(ball, floor->other, now);
-        if (contact.depth > kDepthOfRadius * world_.body(ball).radius) return false;
+        if (contact.depth > kDepthOfRadius * world_.ball(ball).radius) return false;
         if (!can_hold(ball, now, contact, velocities)) return false;
         if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * crowd_.slow_speed())
             return false;
@@ -243,7 +243,7 @@ Event ExactRun::event_of(const CrowdPair& pair, EventKind kind, double now) cons
     e.kind = kind;
     e.normal = pair.normal;
     e.point = world_.position(pair.ball, now) -
-              (world_.body(pair.ball).radius + 0.5 * pair.gap) * pair.normal;
+              (world_.ball(pair.ball).radius + 0.5 * pair.gap) * pair.normal;
     return e;
 }
 

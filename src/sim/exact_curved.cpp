@@ -30,7 +30,7 @@ void ExactRun::stay(int ball, double now, const Contact& contact, const Velociti
     const Vec3 v = tangential_part(velocities.linear, contact.normal);
     const CurvedContact feature =
         curved_contact(world_.surface(contact.other.index).shape, world_.position(ball, now), v,
-                       world_.body(ball).radius, world_.scene.simulation.gravity);
+                       world_.ball(ball).radius, world_.scene.simulation.gravity);
     // At the border of a face the motion says whether it is still on it.
     if (is_plane(feature) && can_hold(ball, now, contact, velocities))
         hold(ball, now, contact, velocities, tail, at_start);
@@ -41,7 +41,7 @@ void ExactRun::stay(int ball, double now, const Contact& contact, const Velociti
 /// The same, integrated.
 void ExactRun::follow(int ball, double now, const Contact& contact, const Velocities& velocities,
                       double tail, bool at_start) {
-    const Ball& body = world_.body(ball);
+    const ExactBall& body = world_.ball(ball);
     const Vec3& gravity = world_.scene.simulation.gravity;
     CurvedPhase& phase = curved_[ball];
     phase.state = {world_.position(ball, now), velocities.linear, velocities.spin};

@@ -233,7 +233,7 @@ void ExactRun::fall_asleep(const std::vector<int>& balls, double now, double cal
         ExactBall& b = world_.ball(ball);
         BallState at = world_.state(ball, now);
         at.velocity.setZero();
-        if (world_.body(ball).radius * at.spin.norm() < calm_speed) at.spin.setZero();
+        if (world_.ball(ball).radius * at.spin.norm() < calm_speed) at.spin.setZero();
         b.stepped = false;
         b.asleep = true;
         b.phase_end = kInfinity;

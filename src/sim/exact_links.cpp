@@ -25,9 +25,9 @@ bool ExactRun::stays_together(const Contact& contact, double now) const {
 }
 
 bool ExactRun::in_reach(const Contact& contact) const {
-    double radius = world_.body(contact.ball).radius;
+    double radius = world_.ball(contact.ball).radius;
     if (!contact.other.is_surface)
-        radius = std::min(radius, world_.body(contact.other.index).radius);
+        radius = std::min(radius, world_.ball(contact.other.index).radius);
     return -contact.depth < kLinkGap * radius;
 }
 
@@ -72,7 +72,7 @@ void ExactRun::link_near(int ball, double now, const std::vector<Link>& before) 
     world_.for_each_near(ball, [&](int other) {
         if (world_.ball(other).crowded) return;
         const double reach =
-            (1 + kLinkGap) * (world_.body(ball).radius + world_.body(other).radius);
+            (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(other).radius);
         if ((world_.position(other, now) - x).squaredNorm() < reach * reach) offer({false, other});
     });
 }

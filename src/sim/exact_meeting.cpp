@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace carom {
 
@@ -40,12 +41,19 @@ bool friction_is_idle(const Scene& scene, const Mat3& free) {
            });
 }
 
+/// A ball's motion across all normals.
+struct FreeMotion {
+    Vec3 position, velocity;
+    double radius = 0;
+};
+
 /// Whether two balls at constant relative velocity come closer than their radii in `duration`.
-bool pass_close(const Ball& a, const Ball& b, const Mat3& free, double duration) {
-    const Vec3 x = free * (a.position - b.position), v = free * (a.velocity - b.velocity);
+bool pass_close(const FreeMotion& a, const FreeMotion& b, double duration) {
+    const Vec3 x = a.position - b.position, v = a.velocity - b.velocity;
     const double speed2 = v.squaredNorm();
     const double nearest = speed2 > 0 ? std::clamp(-x.dot(v) / speed2, 0.0, duration) : 0;
-    return (x + nearest * v).norm() <= (a.radius + b.radius) * (1 + kClearance);
+    const double reach = (a.radius + b.radius) * (1 + kClearance);
+    return (x + nearest * v).squaredNorm() <= reach * reach;
 }
 
 }  // namespace
@@ -60,9 +68,13 @@ Meeting meeting_of(const Scene& scene, const PairTable& pairs, double duration) 
     if (!planes || balls > kMostBalls) return can;
     const Mat3 free = across_normals(scene);
     if (pairs.any_friction() && !friction_is_idle(scene, free)) return can;
+    std::vector<FreeMotion> motions;
+    motions.reserve(balls);
+    for (const Ball& b : scene.balls)
+        motions.push_back({free * b.position, free * b.velocity, b.radius});
     for (std::size_t i = 0; i < balls; ++i)
         for (std::size_t j = i + 1; j < balls; ++j)
-            if (pass_close(scene.balls[i], scene.balls[j], free, duration)) return can;
+            if (pass_close(motions[i], motions[j], duration)) return can;
     return {false, fmt::format("the paths of the {} balls pass each other at a distance", balls)};
 }
 

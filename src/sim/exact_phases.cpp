@@ -53,7 +53,7 @@ bool is_flat(const SurfaceShape& shape, const Vec3& normal) {
 }
 
 FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& contact) {
-    const Ball& body = world.body(ball);
+    const ExactBall& body = world.ball(ball);
     return {contact.normal, body.radius, body.inertia_factor, contact.friction,
             world.scene.simulation.gravity};
 }
@@ -67,12 +67,12 @@ FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& conta
 double ExactRun::slip_tolerance(int ball, double now, const Velocities& velocities) const {
     const double time_rounding = 8 * std::numeric_limits<double>::epsilon() * now;
     return kStillFraction *
-               (velocities.linear.norm() + world_.body(ball).radius * velocities.spin.norm()) +
+               (velocities.linear.norm() + world_.ball(ball).radius * velocities.spin.norm()) +
            time_rounding * world_.scene.simulation.gravity.norm();
 }
 
 double ExactRun::hop_limit(int ball, const Vec3& position) const {
-    return kLastHop * std::max(world_.body(ball).radius, position.cwiseAbs().maxCoeff());
+    return kLastHop * std::max(world_.ball(ball).radius, position.cwiseAbs().maxCoeff());
 }
 
 /// Whether a contact that does not approach is a lasting one; `tail` [s] is how long its remaining
@@ -115,8 +115,8 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
 void ExactRun::begin_piece(int ball, double now, const BallState& at, const Vec3& a,
                            const Vec3& spin_rate, OptionalCurve curve) {
     ExactBall& b = world_.ball(ball);
-    b.piece = {now,     at.position, at.velocity,     a, at.orientation,
-               at.spin, spin_rate,   std::move(curve)};
+    b.piece = {now,     at.position, at.velocity, a, std::move(curve), at.orientation,
+               at.spin, spin_rate};
     b.stamp = next_stamp_++;
     if (!at.position.allFinite() || !at.velocity.allFinite() || !at.spin.allFinite())
         throw Failure(FailureKind::kRun, fmt::format("the state of ball {} is not finite at {} s",

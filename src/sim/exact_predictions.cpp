@@ -62,7 +62,10 @@ void ExactRun::predict(int ball, double now) {
     const ExactBall& b = world_.ball(ball);
     if (b.crowded && !b.asleep) return;
     Prediction& next = next_[static_cast<std::size_t>(ball)];
-    next = {std::min(b.phase_end, b.row_due), ball, b.stamp, PredictionKind::kPhase, {}, 0, 0};
+    next = {};
+    next.time = std::min(b.phase_end, b.row_due);
+    next.ball = ball;
+    next.stamp = b.stamp;
     for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s)
         if (s != b.surface && !b.crowded) consider_surface(ball, s, now);
     if (world_.grid && world_.grid->in_cell(ball)) {
@@ -75,12 +78,13 @@ void ExactRun::predict(int ball, double now) {
 
 /// The prediction at hand, or the end of the ball's stay in its cell if that comes before.
 void ExactRun::enqueue(int ball, double now) {
-    Prediction event = next_[static_cast<std::size_t>(ball)];
+    Prediction& next = next_[static_cast<std::size_t>(ball)];
+    next.leaves_cell = std::numeric_limits<double>::infinity();
     if (world_.grid && world_.grid->in_cell(ball)) {
         const Path path = world_.path(ball, now);
         const double size = world_.grid->cell_size(), margin = world_.grid->margin();
         const NeighbourGrid::Cell& cell = world_.grid->cell_of(ball);
-        double seconds = std::min(event.time, end_) - now;
+        double seconds = std::min(next.time, end_) - now;
         const double until = seconds;
         const Piece& piece = world_.ball(ball).piece;
         for (int i = 0; i < 3; ++i) {
@@ -95,12 +99,13 @@ void ExactRun::enqueue(int ball, double now) {
             seconds = seconds_inside(path.position[i], path.velocity[i], path.acceleration[i],
                                      low - margin, low + size + margin, seconds);
         }
-        if (seconds < until) {
-            event.time = now + seconds;
-            event.kind = PredictionKind::kCell;
-        }
+        if (seconds < until) next.leaves_cell = now + seconds;
     }
-    if (event.time <= end_) queue_.push(event);
+    const double time = std::min(next.time, next.leaves_cell);
+    if (time <= end_)
+        due_.put(ball, time);
+    else
+        due_.drop(ball);
 }
 
 /// A ball has left its cell: only the cells that come into reach have to be looked at.
@@ -160,7 +165,7 @@ void ExactRun::consider_surface(int ball, int surface, double now) {
     if (stepped && joins_island(partner, ball, now)) return;
     const double from = stepped ? now : world_.ball(ball).piece.start;
     const Path path = world_.path(ball, from);
-    const double radius = world_.body(ball).radius;
+    const double radius = world_.ball(ball).radius;
     const SurfaceShape& shape = world_.surface(surface).shape;
     const Nearest nearest = nearest_on_surface(path.position, radius, shape);
     const bool touching =
@@ -195,7 +200,7 @@ void ExactRun::consider_ball(int ball, int other, double now) {
     const double from = stepped ? now : std::max(a.piece.start, b.piece.start);
     const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
     const Path path = path_a.relative_to(path_b);
-    const double sum = world_.body(ball).radius + world_.body(other).radius;
+    const double sum = world_.ball(ball).radius + world_.ball(other).radius;
     const double reach = sum + world_.touch_tolerance(path_a.position, path_b.position, sum);
     const double distance2 = path.position.squaredNorm();
     const double closing = path.position.dot(path.velocity);
@@ -220,7 +225,7 @@ void ExactRun::consider_ball(int ball, int other, double now) {
 bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
     if (!partner.is_surface) {  // most are far apart
         const double reach =
-            (1 + kLinkGap) * (world_.body(ball).radius + world_.body(partner.index).radius);
+            (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(partner.index).radius);
         const Vec3 apart = world_.position(ball, now) - world_.position(partner.index, now);
         if (apart.squaredNorm() > reach * reach) return false;
     }
@@ -233,8 +238,11 @@ bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
 /// The ball is in a contact without a closed form: its island takes a step at once.
 void ExactRun::join_at_once(int ball, double now) {
     join(ball, now, world_.velocities(ball, now));
-    next_[static_cast<std::size_t>(ball)] = {
-        now, ball, world_.ball(ball).stamp, PredictionKind::kPhase, {}, 0, 0};
+    Prediction& next = next_[static_cast<std::size_t>(ball)];
+    next = {};
+    next.time = now;
+    next.ball = ball;
+    next.stamp = world_.ball(ball).stamp;
 }
 
 /// Takes an impact over into the ball's prediction if it comes first.
@@ -255,13 +263,12 @@ void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi,
     if (time == next.time && next.kind == PredictionKind::kImpact &&
         comes_first(next.partner, partner))
         return;
-    next = {time,
-            ball,
-            world_.ball(ball).stamp,
-            PredictionKind::kImpact,
-            partner,
-            partner.is_surface ? 0 : world_.ball(partner.index).stamp,
-            (from - world_.ball(ball).piece.start) + toi.s};
+    next.time = time;
+    next.stamp = world_.ball(ball).stamp;
+    next.kind = PredictionKind::kImpact;
+    next.partner = partner;
+    next.partner_stamp = partner.is_surface ? 0 : world_.ball(partner.index).stamp;
+    next.seconds = (from - world_.ball(ball).piece.start) + toi.s;
 }
 
 }  // namespace carom

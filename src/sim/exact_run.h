@@ -3,15 +3,14 @@
 
 #include <limits>
 #include <map>
-#include <queue>
 #include <stop_token>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "sim/cluster.h"
 #include "sim/crowd.h"
 #include "sim/curved_phase.h"
+#include "sim/due_list.h"
 #include "sim/exact.h"
 #include "sim/exact_meeting.h"
 #include "sim/exact_world.h"
@@ -37,13 +36,7 @@ struct Prediction {
     Partner partner;
     std::uint64_t partner_stamp = 0;
     double seconds = 0;  ///< since the start of the ball's piece: finer than `time` can say
-};
-
-/// Earliest first; at one instant by the balls' order, so that runs repeat exactly.
-struct Later {
-    bool operator()(const Prediction& a, const Prediction& b) const {
-        return std::tie(a.time, a.ball) > std::tie(b.time, b.ball);
-    }
+    double leaves_cell = std::numeric_limits<double>::infinity();  ///< s, if that comes before
 };
 
 class ExactRun {
@@ -55,6 +48,7 @@ class ExactRun {
 
   private:
     bool current(const Prediction& p) const;
+    Prediction due(int ball) const;
     void predict(int ball, double now);
     void enqueue(int ball, double now);
     void change_cell(int ball, double now);
@@ -142,12 +136,12 @@ class ExactRun {
     Links links_;
     Crowd crowd_;
     double next_step_ = std::numeric_limits<double>::infinity();  ///< of the crowd, s
-    std::priority_queue<Prediction, std::vector<Prediction>, Later> queue_;
+    DueList due_;
     Motion motion_;
     SimulationReport report_;
     std::uint64_t next_stamp_ = 1;
     std::map<int, CurvedPhase> curved_;  ///< by ball
-    std::vector<Prediction> next_;       ///< per ball, without the change of its cell
+    std::vector<Prediction> next_;       ///< per ball
     std::int64_t events_of_grid_ = 0;
     Meeting meeting_;
     std::size_t awake_ = 0;  ///< a ball that was not at rest when last looked at

@@ -19,6 +19,10 @@ constexpr std::size_t kCachedMaterials = 256;
 ExactWorld::ExactWorld(const Scene& s) : scene(s), pairs(s), balls(s.balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Ball& body = s.balls[i];
+        balls[i].radius = body.radius;
+        balls[i].mass = body.mass;
+        balls[i].inertia_factor = body.inertia_factor;
+        balls[i].material = body.material;
         Piece& piece = balls[i].piece;
         piece.position = body.position;
         piece.velocity = body.velocity;
@@ -73,7 +77,7 @@ Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
     c.ball = i;
     c.other = partner;
     const Vec3 x = position(i, t);
-    const double radius = body(i).radius;
+    const double radius = ball(i).radius;
     int material = 0;
     if (partner.is_surface) {
         const Nearest nearest = nearest_on_surface(x, radius, surface(partner.index).shape);
@@ -85,15 +89,15 @@ Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
         if (partner.index < i) std::swap(c.ball, c.other.index);
         const Vec3 a = position(c.ball, t), b = position(c.other.index, t);
         const double distance = (a - b).norm();
-        const double sum = body(c.ball).radius + body(c.other.index).radius;
+        const double sum = ball(c.ball).radius + ball(c.other.index).radius;
         c.normal = distance > 0 ? Vec3((a - b) / distance) : Vec3::UnitZ();
         c.depth = sum - distance;
-        c.arm_other = body(c.other.index).radius * c.normal;
+        c.arm_other = ball(c.other.index).radius * c.normal;
         c.point = b + c.arm_other;
-        material = body(c.other.index).material;
+        material = ball(c.other.index).material;
     }
-    c.arm = -body(c.ball).radius * c.normal;
-    const PairProperties both = pair(body(c.ball).material, material);
+    c.arm = -ball(c.ball).radius * c.normal;
+    const PairProperties both = pair(ball(c.ball).material, material);
     c.restitution = both.restitution;
     c.friction = both.friction;
     return c;
@@ -101,8 +105,8 @@ Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
 
 bool ExactWorld::touches(const Contact& c, double t) const {
     const Vec3 a = position(c.ball, t);
-    if (c.other.is_surface) return -c.depth <= touch_tolerance(a, c.point, body(c.ball).radius);
-    const double size = body(c.ball).radius + body(c.other.index).radius;
+    if (c.other.is_surface) return -c.depth <= touch_tolerance(a, c.point, ball(c.ball).radius);
+    const double size = ball(c.ball).radius + ball(c.other.index).radius;
     return -c.depth <= touch_tolerance(a, position(c.other.index, t), size);
 }
 

@@ -16,27 +16,31 @@
 
 namespace carom {
 
-/// A ball, from piece.start on.
-struct ExactBall {
-    Piece piece;
+/// A ball, from piece.start on. What its neighbours ask for stands first, in two lines of cache.
+struct alignas(64) ExactBall {
     std::uint64_t stamp = 0;  ///< changes with every new piece: predictions know what they rest on
-    int surface = -1;         ///< of its lasting contact, -1 in flight
-    EventKind kind = EventKind::kLeave;  ///< of the lasting contact: kSlide, kRoll or kRest
-    Vec3 normal = Vec3::UnitZ();         ///< of the lasting contact
-    double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
+    double radius = 0;        ///< m
+    /// m/s: relative speeds below this are what its last impacts left of a zero.
+    double rounding_speed = 0;
+    int surface = -1;            ///< of its lasting contact, -1 in flight
     bool leaves_at_end = false;  ///< the phase ends because the face does
     bool stepped = false;        ///< in an island that ODE steps; phase_end is the step's end
     bool asleep = false;         ///< in such an island, which rests until something touches it
     bool crowded = false;        ///< a member of the crowd (crowd.h), asleep or not
-    double impacts_since = 0;    ///< s: its recent impacts are counted from here
+    Piece piece;
+    double mass = 0;            ///< kg
+    double inertia_factor = 0;  ///< as in Ball
+    int material = 0;
+    EventKind kind = EventKind::kLeave;  ///< of the lasting contact: kSlide, kRoll or kRest
+    Vec3 normal = Vec3::UnitZ();         ///< of the lasting contact
+    double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
+    double impacts_since = 0;  ///< s: its recent impacts are counted from here
     int recent_impacts = 0;
     int steps = 0;       ///< taken since it joined an island
     int calm_steps = 0;  ///< on end, in which it hardly moved
     int slow_steps = 0;  ///< on end, in which it moved, but slowly
     /// s, when the row of the lasting contact is due: at the end of its bouncing series.
     double row_due = std::numeric_limits<double>::infinity();
-    /// m/s: relative speeds below this are what its last impacts left of a zero.
-    double rounding_speed = 0;
 };
 
 /// Scene, balls and the geometry of who touches whom.
@@ -90,7 +94,7 @@ class ExactWorld {
     template <class F>
     void for_each_touching(int ball_index, const Vec3& x, F&& f) const {
         if (balls_can_meet && grid)
-            grid->for_each_touching(ball_index, x, body(ball_index).radius, f);
+            grid->for_each_touching(ball_index, x, ball(ball_index).radius, f);
         else
             for_each_near(ball_index, f);
     }

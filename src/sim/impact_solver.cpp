@@ -124,6 +124,20 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
 }
 
 void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, Contact& c) const {
+    if (!(c.friction > 0)) {  // spin takes no part
+        const double change = std::max((1 + c.restitution) * c.approach_speed, 0.0);
+        ImpactBody& ball = bodies[static_cast<std::size_t>(c.ball)];
+        double share = 1;
+        if (!c.other.is_surface) {
+            ImpactBody& other = bodies[static_cast<std::size_t>(c.other.index)];
+            share = other.mass / (ball.mass + other.mass);
+            other.velocities.linear -= (1 - share) * change * c.normal;
+        }
+        ball.velocities.linear += share * change * c.normal;
+        c.impulse = share * change * ball.mass;
+        c.tangential_impulse = 0;
+        return;
+    }
     ContactRow row(bodies, c, c.restitution * std::max(c.approach_speed, 0.0));
     row.relax();
     c.impulse = row.normal;

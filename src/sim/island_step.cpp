@@ -18,7 +18,7 @@ constexpr double kRelaxation = 0.5;
 /// Overlaps up to this fraction of the smaller radius stay, so that resting balls do not move.
 constexpr double kSlop = 1e-9;
 
-double inverse_mass(const ExactWorld& world, int ball) { return 1 / world.body(ball).mass; }
+double inverse_mass(const ExactWorld& world, int ball) { return 1 / world.ball(ball).mass; }
 
 }  // namespace
 
@@ -47,11 +47,11 @@ std::size_t IslandStep::index_of(int ball) const {
 Nearest IslandStep::gap(const Contact& c, double ahead) const {
     const BallState& a = results_[index_of(c.ball)].start;
     const Vec3 x = a.position + ahead * a.velocity;
-    const double radius = world_.body(c.ball).radius;
+    const double radius = world_.ball(c.ball).radius;
     if (c.other.is_surface)
         return nearest_on_surface(x, radius, world_.surface(c.other.index).shape);
     const BallState& b = results_[index_of(c.other.index)].start;
-    const SphereShape other{b.position + ahead * b.velocity, world_.body(c.other.index).radius};
+    const SphereShape other{b.position + ahead * b.velocity, world_.ball(c.other.index).radius};
     return nearest_on_surface(x, radius, other);
 }
 
@@ -63,10 +63,10 @@ void IslandStep::correct_positions() {
         bool moved = false;
         for (const Contact& c : contacts_) {
             const Nearest nearest = gap(c, 0);
-            double radius = world_.body(c.ball).radius;
+            double radius = world_.ball(c.ball).radius;
             double ours = inverse_mass(world_, c.ball), theirs = 0;
             if (!c.other.is_surface) {
-                radius = std::min(radius, world_.body(c.other.index).radius);
+                radius = std::min(radius, world_.ball(c.other.index).radius);
                 theirs = inverse_mass(world_, c.other.index);
             }
             if (nearest.gap >= -kSlop * radius) continue;
@@ -83,7 +83,7 @@ void IslandStep::correct_positions() {
 void IslandStep::solve(IslandSolver& solver) {
     std::vector<ImpactBody> bodies;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
-        const Ball& b = world_.body(balls_[i]);
+        const ExactBall& b = world_.ball(balls_[i]);
         const BallState& s = results_[i].start;
         bodies.push_back({s.position + 0.5 * seconds_ * s.velocity,
                           {s.velocity, s.spin},
@@ -94,8 +94,8 @@ void IslandStep::solve(IslandSolver& solver) {
     for (Contact& c : local) {
         c.depth = -gap(c, 0).gap;
         c.normal = gap(c, 0.5 * seconds_).normal;
-        c.arm = -world_.body(c.ball).radius * c.normal;
-        if (!c.other.is_surface) c.arm_other = world_.body(c.other.index).radius * c.normal;
+        c.arm = -world_.ball(c.ball).radius * c.normal;
+        if (!c.other.is_surface) c.arm_other = world_.ball(c.other.index).radius * c.normal;
         c.ball = static_cast<int>(index_of(c.ball));
         if (!c.other.is_surface) c.other.index = static_cast<int>(index_of(c.other.index));
     }
@@ -121,7 +121,7 @@ bool IslandStep::is_calm(double speed) const {
         if (after_[i].linear.norm() > speed || results_[i].start.velocity.norm() > speed)
             return false;
         const double turned = (after_[i].spin - results_[i].start.spin).norm();
-        if (world_.body(balls_[i]).radius * turned > speed) return false;
+        if (world_.ball(balls_[i]).radius * turned > speed) return false;
     }
     return std::all_of(contacts_.begin(), contacts_.end(), [speed](const Contact& c) {
         return c.friction == 0 || c.slip_after.norm() <= speed;

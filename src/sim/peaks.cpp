@@ -40,44 +40,57 @@ double gap_at(const Piece& piece, const Event& impact, double radius, double tur
     return gap(piece.position_at(turn));
 }
 
-/// The highest turn of the gap between two instants.
-std::optional<Peak> highest(const Trajectory& ball, double radius, const Event& impact, double to) {
+/// The highest turn of the gap from an impact to an instant; `piece` is where the look begins, and
+/// becomes the last one looked at.
+std::optional<Peak> highest(const Trajectory& ball, double radius, const Event& impact, double to,
+                            std::size_t& piece) {
     const std::vector<Piece>& pieces = ball.pieces();
     std::optional<Peak> best;
-    for (std::size_t i = ball.piece_index(impact.time); i < pieces.size(); ++i) {
-        if (pieces[i].start >= to) break;
-        const double begin = std::max(pieces[i].start, impact.time);
-        const double end = i + 1 < pieces.size() ? std::min(pieces[i + 1].start, to) : to;
-        const std::optional<double> turn = turn_in(pieces[i], impact.normal, begin, end);
+    for (; piece < pieces.size() && pieces[piece].start < to; ++piece) {
+        const Piece& p = pieces[piece];
+        const double begin = std::max(p.start, impact.time);
+        const double end = piece + 1 < pieces.size() ? std::min(pieces[piece + 1].start, to) : to;
+        const std::optional<double> turn = turn_in(p, impact.normal, begin, end);
         if (!turn) continue;
-        const double height = gap_at(pieces[i], impact, radius, *turn);
+        const double height = gap_at(p, impact, radius, *turn);
         if (height > 0 && (!best || height > best->height)) best = Peak{*turn, height};
     }
+    if (piece > 0) --piece;  // the next impact may fall into it
     return best;
 }
 
 }  // namespace
 
 std::vector<std::vector<Peak>> find_peaks(const Scene& scene, const Motion& motion) {
-    std::vector<std::vector<const Event*>> impacts(scene.balls.size());
+    struct Hop {
+        const Event* impact = nullptr;  ///< the one that it began with
+        std::size_t piece = 0;
+    };
+    std::vector<Hop> hops(scene.balls.size());
+    std::vector<std::vector<Peak>> peaks(scene.balls.size());
+    // What the gap did since the ball's last impact.
+    const auto end_hop = [&](std::size_t ball, double to) {
+        Hop& b = hops[ball];
+        if (b.impact == nullptr || !b.impact->other.is_surface) return;
+        if (!(b.impact->normal.dot(scene.simulation.gravity) < 0)) return;  // it faces up
+        const auto& pieces = motion.balls[ball].pieces();
+        while (b.piece + 1 < pieces.size() && pieces[b.piece + 1].start <= b.impact->time)
+            ++b.piece;
+        const auto peak =
+            highest(motion.balls[ball], scene.balls[ball].radius, *b.impact, to, b.piece);
+        if (peak) peaks[ball].push_back(*peak);
+    };
+    const auto meets = [&](int ball, const Event& impact) {
+        const auto b = static_cast<std::size_t>(ball);
+        end_hop(b, impact.time);
+        hops[b].impact = &impact;
+    };
     for (const Event& event : motion.events) {
         if (event.kind != EventKind::kImpact) continue;
-        impacts[static_cast<std::size_t>(event.ball)].push_back(&event);
-        if (!event.other.is_surface)
-            impacts[static_cast<std::size_t>(event.other.index)].push_back(&event);
+        meets(event.ball, event);
+        if (!event.other.is_surface) meets(event.other.index, event);
     }
-
-    std::vector<std::vector<Peak>> peaks(scene.balls.size());
-    for (std::size_t b = 0; b < scene.balls.size(); ++b) {
-        for (std::size_t i = 0; i < impacts[b].size(); ++i) {
-            const Event& impact = *impacts[b][i];
-            const bool faces_up = impact.normal.dot(scene.simulation.gravity) < 0;
-            if (!impact.other.is_surface || !faces_up) continue;
-            const double to = i + 1 < impacts[b].size() ? impacts[b][i + 1]->time : motion.duration;
-            const auto peak = highest(motion.balls[b], scene.balls[b].radius, impact, to);
-            if (peak) peaks[b].push_back(*peak);
-        }
-    }
+    for (std::size_t b = 0; b < hops.size(); ++b) end_hop(b, motion.duration);
     return peaks;
 }
 
