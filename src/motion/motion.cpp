@@ -75,9 +75,10 @@ const char* event_kind_name(EventKind kind) {
 
 void Trajectory::append(const Piece& piece) {
     if (!pieces_.empty()) {
-        CAROM_CHECK(piece.start, >=, pieces_.back().start);
-        if (piece.start == pieces_.back().start) pieces_.pop_back();
+        CAROM_CHECK(piece.start, >=, last_start_);
+        if (piece.start == last_start_) pieces_.pop_back();
     }
+    last_start_ = piece.start;
     if (pieces_.size() == pieces_.capacity())
         pieces_.reserve(std::max(kFirstPieces, 2 * pieces_.size()));
     pieces_.push_back(piece);

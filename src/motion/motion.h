@@ -116,6 +116,7 @@ class Trajectory {
 
   private:
     std::vector<Piece> pieces_;
+    double last_start_ = 0;  ///< s, of the last piece: it is asked for when that is out of cache
 };
 
 struct Motion {

@@ -1,45 +1,46 @@
 // Which ball's next event is due first.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <queue>
+#include <limits>
 #include <vector>
 
 namespace carom {
 
-/// An entry: small, since the list is long and most of its cost is memory.
-struct Due {
-    double time = 0;  ///< s
-    int ball = -1;
-    std::uint32_t turn = 0;  ///< of the ball's entries: older ones are void
-};
-
-/// At most one entry a ball counts, the last one put in. Earliest first; at one instant by the
+/// Of each ball one time, s; infinite where nothing is due. Earliest first; at one instant by the
 /// balls' order, so that runs repeat exactly.
+///
+/// A heap of four children a node whose entries move in place: an event that gives its ball another
+/// one costs a walk in a heap of one entry a ball, and nothing that was overtaken is left in it.
 class DueList {
   public:
-    explicit DueList(std::size_t balls) : turns_(balls, 0) {}
+    struct Entry {
+        double time = std::numeric_limits<double>::infinity();
+        int ball = -1;
+    };
 
-    /// Replaces the ball's entry.
-    void put(int ball, double time) { queue_.push({time, ball, ++turn(ball)}); }
-    void drop(int ball) { ++turn(ball); }
-    /// Until the list changes; none where it is empty.
-    const Due* first() {
-        while (!queue_.empty() && turn(queue_.top().ball) != queue_.top().turn) queue_.pop();
-        return queue_.empty() ? nullptr : &queue_.top();
-    }
-    void pop() { queue_.pop(); }
+    explicit DueList(std::size_t balls);
+    void put(int ball, double time);
+    void drop(int ball) { put(ball, std::numeric_limits<double>::infinity()); }
+    /// The time is infinite where nothing is due.
+    const Entry& first() const { return heap_.front(); }
 
   private:
-    struct Later {
-        bool operator()(const Due& a, const Due& b) const {
-            return a.time > b.time || (a.time == b.time && a.ball > b.ball);
-        }
-    };
-    std::uint32_t& turn(int ball) { return turns_[static_cast<std::size_t>(ball)]; }
+    static constexpr std::size_t kChildren = 4;
 
-    std::priority_queue<Due, std::vector<Due>, Later> queue_;
-    std::vector<std::uint32_t> turns_;  ///< per ball, of its last entry
+    static bool before(const Entry& a, const Entry& b) {
+        return a.time < b.time || (a.time == b.time && a.ball < b.ball);
+    }
+    void set(std::size_t place, const Entry& entry) {
+        heap_[place] = entry;
+        place_[static_cast<std::size_t>(entry.ball)] = static_cast<std::uint32_t>(place);
+    }
+    void move_up(std::size_t place, const Entry& entry);
+    void move_down(std::size_t place, const Entry& entry);
+
+    std::vector<Entry> heap_;           ///< one per ball; never empty
+    std::vector<std::uint32_t> place_;  ///< per ball, in heap_
 };
 
 }  // namespace carom

@@ -81,16 +81,16 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
     double last = -1;
     int at_one_instant = 0;
     for (std::int64_t events = 0;; ++events) {
-        const Due* first = due_.first();
-        const bool step = first == nullptr || next_step_ <= first->time;
-        if ((step ? next_step_ : first->time) > end_) break;
+        const DueList::Entry first = due_.first();
+        const bool step = next_step_ <= first.time;
+        if (std::min(next_step_, first.time) > end_) break;
         Prediction next;
         if (step) {
             next.time = next_step_;
             next.ball = crowd_.awake().empty() ? 0 : crowd_.awake().front();
         } else {
-            next = due(first->ball);
-            due_.pop();
+            next = due(first.ball);
+            due_.drop(first.ball);
             if (!current(next)) continue;
         }
         at_one_instant = next.time > last ? 0 : at_one_instant + 1;
@@ -122,11 +122,11 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
 /// The next prediction, and the others of its instant.
 void ExactRun::take_together(const Prediction& next) {
     together_.assign(1, next);
-    for (const Due* other = due_.first();
-         other != nullptr && other->time <= next.time * (1 + kSameInstant); other = due_.first()) {
-        const Prediction p = due(other->ball);
+    while (due_.first().time <= next.time * (1 + kSameInstant)) {
+        const int ball = due_.first().ball;
+        const Prediction p = due(ball);
         if (current(p)) together_.push_back(p);
-        due_.pop();
+        due_.drop(ball);
     }
 }
 

@@ -126,9 +126,9 @@ void ExactRun::change_cell(int ball, double now) {
     if (moved > 0) grid.move(ball, to);
     const auto look = [&](int other) { consider_ball(ball, other, now); };
     if (moved == 1 && std::abs(side) == 1)
-        grid.for_each_in_layer(ball, axis, side, look);
+        world_.for_each_in_layer(ball, axis, side, look);
     else if (moved > 0)
-        grid.for_each_near(ball, look);
+        world_.for_each_near(ball, look);
     enqueue(ball, now);
 }
 

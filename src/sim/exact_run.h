@@ -28,7 +28,7 @@ enum class PredictionKind : std::uint8_t {
 };
 
 /// What will happen next to a ball if nothing else happens before.
-struct Prediction {
+struct alignas(64) Prediction {
     double time = 0;
     int ball = -1;
     std::uint64_t stamp = 0;

@@ -1,6 +1,7 @@
 // The balls of the method `exact` between two events: each has its own clock and its current piece.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -83,7 +84,7 @@ class ExactWorld {
     void for_each_near(int ball_index, F&& f) const {
         if (!balls_can_meet) return;
         if (grid) {
-            grid->for_each_near(ball_index, f);
+            fetched(f, [&](auto& take) { grid->for_each_near(ball_index, take); });
             return;
         }
         for (int other = 0; other < static_cast<int>(balls.size()); ++other)
@@ -93,13 +94,45 @@ class ExactWorld {
     /// The same for balls that touch it now, at x.
     template <class F>
     void for_each_touching(int ball_index, const Vec3& x, F&& f) const {
-        if (balls_can_meet && grid)
-            grid->for_each_touching(ball_index, x, ball(ball_index).radius, f);
-        else
-            for_each_near(ball_index, f);
+        if (!balls_can_meet || !grid) return for_each_near(ball_index, f);
+        fetched(f, [&](auto& take) {
+            grid->for_each_touching(ball_index, x, ball(ball_index).radius, take);
+        });
+    }
+
+    /// The same for the layer of cells that a ball has come to.
+    template <class F>
+    void for_each_in_layer(int ball_index, int axis, std::int64_t side, F&& f) const {
+        fetched(f, [&](auto& take) { grid->for_each_in_layer(ball_index, axis, side, take); });
+    }
+
+    /// Has a ball's memory on its way when it is looked at a little later.
+    void fetch(int i) const {
+        const auto* bytes = reinterpret_cast<const char*>(&ball(i));
+        __builtin_prefetch(bytes);
+        __builtin_prefetch(bytes + 64);
     }
 
   private:
+    /// search(take) names balls to take(); f gets them a little later, when they are in cache:
+    /// where balls are many, most of an event is waiting for memory.
+    template <class F, class Search>
+    void fetched(F& f, const Search& search) const {
+        std::array<int, 24> waiting;
+        std::size_t count = 0;
+        const auto hand_on = [&] {
+            for (std::size_t i = 0; i < count; ++i) f(waiting[i]);
+            count = 0;
+        };
+        const auto take = [&](int other) {
+            fetch(other);
+            waiting[count++] = other;
+            if (count == waiting.size()) hand_on();
+        };
+        search(take);
+        hand_on();
+    }
+
     std::vector<PairProperties> pair_cache_;  ///< materials x materials, empty if they are many
 };
 

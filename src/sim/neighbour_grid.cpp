@@ -26,6 +26,7 @@ constexpr std::size_t kMostLarge = 16;
 NeighbourGrid::NeighbourGrid(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
     CAROM_CHECK(positions.size(), ==, radii.size());
     slots_.resize(positions.size());
+    places_.resize(positions.size());
     if (positions.empty()) return;
     choose_large(radii);
 
@@ -36,7 +37,7 @@ NeighbourGrid::NeighbourGrid(const std::vector<Vec3>& positions, const std::vect
     }
     double diameter = 0;
     for (std::size_t i = 0; i < radii.size(); ++i)
-        if (slots_[i].in_cell) diameter = std::max(diameter, 2 * radii[i]);
+        if (places_[i].in_cell) diameter = std::max(diameter, 2 * radii[i]);
     largest_radius_ = 0.5 * diameter;
     size_ = cell_size_for(low, high);
 
@@ -44,7 +45,7 @@ NeighbourGrid::NeighbourGrid(const std::vector<Vec3>& positions, const std::vect
     while (buckets < 4 * positions.size()) buckets *= 2;
     heads_.assign(buckets, -1);
     for (std::size_t i = 0; i < positions.size(); ++i)
-        if (slots_[i].in_cell) insert(static_cast<int>(i), cell_at(positions[i]));
+        if (places_[i].in_cell) insert(static_cast<int>(i), cell_at(positions[i]));
 }
 
 double NeighbourGrid::cell_size_for(const Vec3& low, const Vec3& high) const {
@@ -62,7 +63,7 @@ void NeighbourGrid::choose_large(const std::vector<double>& radii) {
     const double bound = std::max(kLarge * median, sorted[first_allowed]);
     for (std::size_t i = 0; i < radii.size(); ++i)
         if (radii[i] > bound) {
-            slots_[i].in_cell = false;
+            places_[i].in_cell = false;
             large_.push_back(static_cast<int>(i));
         }
 }
@@ -75,26 +76,18 @@ NeighbourGrid::Cell NeighbourGrid::cell_at(const Vec3& position) const {
     return cell;
 }
 
-std::size_t NeighbourGrid::bucket(const Cell& cell) const {
-    // Large odd factors and a fold of the upper half spread neighbouring cells over the buckets.
-    const auto x = static_cast<std::uint64_t>(cell[0]) * 0x9e3779b97f4a7c15u;
-    const auto y = static_cast<std::uint64_t>(cell[1]) * 0xc2b2ae3d27d4eb4fu;
-    const auto z = static_cast<std::uint64_t>(cell[2]) * 0x165667b19e3779f9u;
-    const std::uint64_t mixed = x ^ y ^ z;
-    return static_cast<std::size_t>((mixed ^ (mixed >> 32)) & (heads_.size() - 1));
-}
-
 void NeighbourGrid::insert(int ball, const Cell& cell) {
+    places_[static_cast<std::size_t>(ball)].cell = cell;
     Slot& s = slots_[static_cast<std::size_t>(ball)];
-    int& head = heads_[bucket(cell)];
-    s.cell = cell;
+    s.cell = shortened(cell);
+    int& head = heads_[bucket(s.cell)];
     s.next = head;
     head = ball;
 }
 
 void NeighbourGrid::move(int ball, const Cell& to) {
+    CAROM_CHECK(in_cell(ball), ==, true);
     const Slot& s = slot(ball);
-    CAROM_CHECK(s.in_cell, ==, true);
     int* link = &heads_[bucket(s.cell)];
     while (*link != ball) link = &slots_[static_cast<std::size_t>(*link)].next;
     *link = s.next;

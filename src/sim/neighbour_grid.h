@@ -27,8 +27,8 @@ class NeighbourGrid {
     /// A ball counts as inside its cell until it is this far outside, so that one on a border does
     /// not go to and fro with its rounding.
     double margin() const { return kMargin * size_; }
-    bool in_cell(int ball) const { return slot(ball).in_cell; }
-    const Cell& cell_of(int ball) const { return slot(ball).cell; }
+    bool in_cell(int ball) const { return places_[static_cast<std::size_t>(ball)].in_cell; }
+    const Cell& cell_of(int ball) const { return places_[static_cast<std::size_t>(ball)].cell; }
     Cell cell_at(const Vec3& position) const;
     /// Puts a ball that stands in a cell into another one.
     void move(int ball, const Cell& to);
@@ -85,29 +85,51 @@ class NeighbourGrid {
   private:
     static constexpr double kMargin = 0.02;  ///< of the cell size
 
-    /// A ball, as a link of the list of its bucket.
+    /// The lower halves of a cell's numbers: cells that share them are some 10^9 cells apart.
+    using ShortCell = std::array<std::uint32_t, 3>;
+
+    /// A ball, as a link of the list of its bucket: small, since a search reads many.
     struct Slot {
-        Cell cell{};
+        ShortCell cell{};
         int next = -1;
+    };
+    struct Place {
+        Cell cell{};
         bool in_cell = true;
     };
 
-    static bool same(const Cell& a, const Cell& b) {
+    static ShortCell shortened(const Cell& c) {
+        return {static_cast<std::uint32_t>(c[0]), static_cast<std::uint32_t>(c[1]),
+                static_cast<std::uint32_t>(c[2])};
+    }
+    static bool same(const ShortCell& a, const ShortCell& b) {
         return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
     }
     const Slot& slot(int ball) const { return slots_[static_cast<std::size_t>(ball)]; }
-    std::size_t bucket(const Cell& cell) const;
+    /// Neighbouring cells' buckets lie together, so that a search reads few lines of memory: blocks
+    /// of 2 x 2 x 4 cells fill one, and large odd factors spread the blocks.
+    std::size_t bucket(const ShortCell& c) const {
+        const std::uint64_t x = c[0] / 2 * 0x9e3779b97f4a7c15u;
+        const std::uint64_t y = c[1] / 2 * 0xc2b2ae3d27d4eb4fu;
+        const std::uint64_t z = c[2] / 4 * 0x165667b19e3779f9u;
+        const std::uint64_t mixed = x ^ y ^ z;
+        const std::uint64_t inside = c[0] % 2 * 8 + c[1] % 2 * 4 + c[2] % 4;
+        return static_cast<std::size_t>((mixed ^ (mixed >> 32)) * 16 + inside) &
+               (heads_.size() - 1);
+    }
     void insert(int ball, const Cell& cell);
     void choose_large(const std::vector<double>& radii);
 
     template <class F>
     void for_each_in(const Cell& cell, int ball, F&& f) const {
-        for (int other = heads_[bucket(cell)]; other >= 0; other = slot(other).next)
-            if (other != ball && same(slot(other).cell, cell)) f(other);
+        const ShortCell wanted = shortened(cell);
+        for (int other = heads_[bucket(wanted)]; other >= 0; other = slot(other).next)
+            if (other != ball && same(slot(other).cell, wanted)) f(other);
     }
 
     double size_ = 1;
     double largest_radius_ = 0;  ///< of the balls in cells
+    std::vector<Place> places_;  ///< one per ball
     std::vector<Slot> slots_;    ///< one per ball
     std::vector<int> heads_;     ///< first ball of each bucket, -1 for none; a power of two of them
     std::vector<int> large_;
