@@ -136,7 +136,7 @@ void Cluster::touch_balls(int ball) {
     const std::size_t place = index_of(ball);
     const Vec3 x = bodies_[place].position;
     const double radius = world_.ball(ball).radius;
-    world_.for_each_touching(ball, x, [&](int other) {
+    world_.for_each_near(ball, [&](int other) {
         if (has(other) && index_of(other) < place) return;  // looked at from the other side
         if (world_.ball(other).crowded) return;             // met by steps of its own
         // Far pairs are the common case: a little more than the sum of the radii excludes them.

@@ -50,6 +50,18 @@ void ExactWorld::build_grid(double t) {
         radii.push_back(scene.balls[i].radius);
     }
     grid.emplace(positions, radii);
+    for (NearList& list : lists_) list.ball = -1;
+}
+
+const std::vector<int>& ExactWorld::near(int ball_index) const {
+    for (const NearList& list : lists_)
+        if (list.ball == ball_index && list.moves == grid->moves()) return list.others;
+    NearList& list = next_list();
+    list.ball = ball_index;
+    list.moves = grid->moves();
+    list.others.clear();
+    grid->for_each_near(ball_index, [&](int other) { add_to(list, other); });
+    return list.others;
 }
 
 Vec3 ExactWorld::position(int i, double t) const { return ball(i).piece.position_at(t); }

@@ -79,60 +79,52 @@ class ExactWorld {
     std::optional<NeighbourGrid> grid;
     void build_grid(double t);
 
-    /// Calls f(other) for every ball that could touch `ball`, and maybe for more.
+    /// Calls f(other) for every ball that could touch `ball`, and maybe for more. An impact asks
+    /// twice for the balls near it: once who else is touched, then what comes next.
     template <class F>
     void for_each_near(int ball_index, F&& f) const {
         if (!balls_can_meet) return;
         if (grid) {
-            fetched(f, [&](auto& take) { grid->for_each_near(ball_index, take); });
+            for (const int other : near(ball_index)) f(other);
             return;
         }
         for (int other = 0; other < static_cast<int>(balls.size()); ++other)
             if (other != ball_index) f(other);
     }
 
-    /// The same for balls that touch it now, at x.
-    template <class F>
-    void for_each_touching(int ball_index, const Vec3& x, F&& f) const {
-        if (!balls_can_meet || !grid) return for_each_near(ball_index, f);
-        fetched(f, [&](auto& take) {
-            grid->for_each_touching(ball_index, x, ball(ball_index).radius, take);
-        });
-    }
-
     /// The same for the layer of cells that a ball has come to.
     template <class F>
     void for_each_in_layer(int ball_index, int axis, std::int64_t side, F&& f) const {
-        fetched(f, [&](auto& take) { grid->for_each_in_layer(ball_index, axis, side, take); });
-    }
-
-    /// Has a ball's memory on its way when it is looked at a little later.
-    void fetch(int i) const {
-        const auto* bytes = reinterpret_cast<const char*>(&ball(i));
-        __builtin_prefetch(bytes);
-        __builtin_prefetch(bytes + 64);
+        NearList& list = next_list();
+        list.ball = -1;
+        list.others.clear();
+        grid->for_each_in_layer(ball_index, axis, side, [&](int other) { add_to(list, other); });
+        for (const int other : list.others) f(other);
     }
 
   private:
-    /// search(take) names balls to take(); f gets them a little later, when they are in cache:
-    /// where balls are many, most of an event is waiting for memory.
-    template <class F, class Search>
-    void fetched(F& f, const Search& search) const {
-        std::array<int, 24> waiting;
-        std::size_t count = 0;
-        const auto hand_on = [&] {
-            for (std::size_t i = 0; i < count; ++i) f(waiting[i]);
-            count = 0;
-        };
-        const auto take = [&](int other) {
-            fetch(other);
-            waiting[count++] = other;
-            if (count == waiting.size()) hand_on();
-        };
-        search(take);
-        hand_on();
-    }
+    struct NearList {
+        int ball = -1;
+        std::int64_t moves = 0;  ///< of the grid, when it was made
+        std::vector<int> others;
+    };
 
+    /// Where balls are many, most of an event is waiting for memory: it is on its way when the
+    /// first ball of a list is looked at.
+    void add_to(NearList& list, int other) const {
+        const auto* bytes = reinterpret_cast<const char*>(&ball(other));
+        __builtin_prefetch(bytes);
+        __builtin_prefetch(bytes + 64);
+        list.others.push_back(other);
+    }
+    NearList& next_list() const {
+        at_list_ = (at_list_ + 1) % lists_.size();
+        return lists_[at_list_];
+    }
+    const std::vector<int>& near(int ball_index) const;
+
+    mutable std::array<NearList, 4> lists_;  ///< the last ones, in turn
+    mutable std::size_t at_list_ = 0;
     std::vector<PairProperties> pair_cache_;  ///< materials x materials, empty if they are many
 };
 

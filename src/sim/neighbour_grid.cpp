@@ -92,6 +92,7 @@ void NeighbourGrid::move(int ball, const Cell& to) {
     while (*link != ball) link = &slots_[static_cast<std::size_t>(*link)].next;
     *link = s.next;
     insert(ball, to);
+    ++moves_;
 }
 
 }  // namespace carom

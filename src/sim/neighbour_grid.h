@@ -32,6 +32,8 @@ class NeighbourGrid {
     Cell cell_at(const Vec3& position) const;
     /// Puts a ball that stands in a cell into another one.
     void move(int ball, const Cell& to);
+    /// How often balls were put elsewhere: until it changes, so do no answers.
+    std::int64_t moves() const { return moves_; }
 
     /// Calls f(other) for all balls that could touch `ball`, and maybe some more; not for itself.
     template <class F>
@@ -128,6 +130,7 @@ class NeighbourGrid {
     }
 
     double size_ = 1;
+    std::int64_t moves_ = 0;
     double largest_radius_ = 0;  ///< of the balls in cells
     std::vector<Place> places_;  ///< one per ball
     std::vector<Slot> slots_;    ///< one per ball
