@@ -91,6 +91,7 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         } else {
             next = due(first.ball);
             due_.drop(first.ball);
+            fetch(due_.first().ball);  // most likely the next one
             if (!current(next)) continue;
         }
         at_one_instant = next.time > last ? 0 : at_one_instant + 1;
@@ -117,6 +118,14 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         if (progress) progress(next.time);
     }
     motion_.duration = end_;
+}
+
+/// Has what an event reads first on its way.
+void ExactRun::fetch(int ball) const {
+    if (!world_.grid || ball < 0) return;
+    __builtin_prefetch(&next_[static_cast<std::size_t>(ball)]);
+    world_.fetch(ball);
+    world_.grid->fetch(ball);
 }
 
 /// The next prediction, and the others of its instant.

@@ -49,6 +49,7 @@ class ExactRun {
   private:
     bool current(const Prediction& p) const;
     Prediction due(int ball) const;
+    void fetch(int ball) const;
     void predict(int ball, double now);
     void enqueue(int ball, double now);
     void change_cell(int ball, double now);

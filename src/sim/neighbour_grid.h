@@ -30,6 +30,11 @@ class NeighbourGrid {
     bool in_cell(int ball) const { return places_[static_cast<std::size_t>(ball)].in_cell; }
     const Cell& cell_of(int ball) const { return places_[static_cast<std::size_t>(ball)].cell; }
     Cell cell_at(const Vec3& position) const;
+    /// Has a ball's entries on their way when it is looked at a little later.
+    void fetch(int ball) const {
+        __builtin_prefetch(&places_[static_cast<std::size_t>(ball)]);
+        __builtin_prefetch(&slots_[static_cast<std::size_t>(ball)]);
+    }
     /// Puts a ball that stands in a cell into another one.
     void move(int ball, const Cell& to);
     /// How often balls were put elsewhere: until it changes, so do no answers.
