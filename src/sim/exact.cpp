@@ -196,8 +196,15 @@ void ExactRun::happen(double now) {
             seeds_.add(contact_met(p, now));
         }
     }
-    // Clusters that do not touch are resolved one by one.
     const std::size_t met = seeds_.all().size();
+    // What hangs on a link is met as well.
+    const auto linked = [this](const Contact& c) {
+        return !links_.of(c.ball).empty() ||
+               (!c.other.is_surface && !links_.of(c.other.index).empty());
+    };
+    if (std::any_of(seeds_.all().begin(), seeds_.all().end(), linked))
+        for (const Contact& c : linked_contacts(seeds_.all(), now)) seeds_.add(c);
+    // Clusters that do not touch are resolved one by one.
     for (std::size_t i = 0; i < met; ++i) {
         const Contact seed = seeds_.all()[i];
         if (resolved_[static_cast<std::size_t>(seed.ball)] != instant_) resolve(seed, now);
@@ -225,13 +232,6 @@ Contact ExactRun::contact_met(const Prediction& p, double now) {
 }
 
 void ExactRun::resolve(const Contact& seed, double now) {
-    // What hangs on a link is met as well.
-    const auto linked = [this](const Contact& c) {
-        return !links_.of(c.ball).empty() ||
-               (!c.other.is_surface && !links_.of(c.other.index).empty());
-    };
-    if (std::any_of(seeds_.all().begin(), seeds_.all().end(), linked))
-        for (const Contact& c : linked_contacts(seeds_.all(), now)) seeds_.add(c);
     cluster_.gather(seed, seeds_, now);
     impacts_.clear();
     cluster_.resolve(solver_, impacts_, limits_of(cluster_));
