@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/options.h"
@@ -36,7 +37,16 @@ int check(const CheckOptions& options) {
     bool valid = true;
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const std::string& path : options.scenes) {
-        const SceneResult result = read_scene_file(path, options.common.overrides());
+        const std::vector<Override> overrides = options.common.overrides();
+        const std::string text = read_scene_text(path);
+        SceneResult result = read_scene(text, path == "-" ? "<stdin>" : path, overrides);
+        // A scene is as right as the run that it is shown against.
+        if (const auto other =
+                result.scene ? read_other(*result.scene, text, overrides) : std::nullopt;
+            other && !other->scene) {
+            result.diagnostics = other->diagnostics;
+            result.scene.reset();
+        }
         valid = valid && result.scene.has_value();
         nlohmann::ordered_json found = nlohmann::ordered_json::array();
         for (const Diagnostic& d : result.diagnostics.items()) {

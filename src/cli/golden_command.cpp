@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
@@ -66,14 +67,18 @@ bool matches(const GoldenOptions& options, const std::string& path, const Image&
 template <class Use>
 bool for_each_still(const GoldenOptions& options, const std::string& path,
                     const Interrupt& interrupt, const Use& use) {
-    const std::optional<Scene> scene = load_scene(path, options.common);
-    if (!scene) return false;
+    const std::optional<FilmScenes> scenes = load_film_scenes(path, options.common, {});
+    if (!scenes) return false;
+    const Scene* scene = &scenes->scene;
     const std::vector<double>& times = options.times.empty() ? scene->film.stills : options.times;
     if (times.empty())
         throw Failure(FailureKind::kInput,
                       fmt::format("{}: no stills: name them with film.stills or --time", path));
     const SimulationResult simulated = simulate(*scene, interrupt.token());
-    Painter painter(*scene, simulated.motion, {scene->film.width_px, scene->film.height_px});
+    const std::optional<FilmedSecond> second =
+        simulate_second(*scenes, simulated.motion, interrupt.token());
+    Painter painter(*scene, simulated.motion,
+                    {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
     Image picture;
     for (const double time : times) {
         if (!(time >= 0 && time <= simulated.motion.duration))

@@ -86,6 +86,17 @@ void check_outputs(const std::vector<OutputRequest>& outputs,
     }
 }
 
+void check_transparency(const std::vector<OutputRequest>& outputs, const Scene& scene) {
+    if (scene.background != Background::kTransparent) return;
+    for (const OutputRequest& output : outputs)
+        if (output.is_film())
+            throw Failure(FailureKind::kInput,
+                          fmt::format("-o {}: H.264 has no transparency; with 'background: "
+                                      "transparent' frames go to PNGs, such as -o frames/ or "
+                                      "-o frame_%05d.png",
+                                      output.path));
+}
+
 std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,
                                        const EncodingOptions& encoding) {
     if (!output.is_film()) {

@@ -32,6 +32,9 @@ struct OutputRequest {
 void check_outputs(const std::vector<OutputRequest>& outputs,
                    const std::vector<std::int64_t>& frames, bool overwrite);
 
+/// Refuses a format without alpha for a scene with a transparent background.
+void check_transparency(const std::vector<OutputRequest>& outputs, const Scene& scene);
+
 /// Opens a sink that works on a thread of its own.
 std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,
                                        const EncodingOptions& encoding);

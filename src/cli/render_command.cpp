@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/exit_codes.h"
@@ -29,6 +30,7 @@ struct RenderOptions {
     std::string frames;
     std::string chunk;
     bool dry_run = false;
+    AgainstOptions against;
     CommonOptions common;
     EncodingOptions encoding;
 };
@@ -99,20 +101,25 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (!options.common.stats_path.empty())
         require_writable(options.common.stats_path, options.common.overwrite);
 
-    std::optional<Scene> scene;
+    std::optional<FilmScenes> scenes;
     {
         const CpuTimer timer(stats.scene_cpu_s);
-        scene = load_scene(options.scene, options.common);
+        scenes = load_film_scenes(options.scene, options.common, options.against);
     }
-    if (!scene) return kExitInvalidScene;
+    if (!scenes) return kExitInvalidScene;
+    const Scene* scene = &scenes->scene;
+    check_transparency(requests(options), *scene);
     check_early(options, *scene);
 
     SimulationResult simulated;
+    std::optional<FilmedSecond> second;
     {
         const CpuTimer timer(stats.sim_cpu_s);
         simulated = simulate(*scene, interrupt.token());
+        second = simulate_second(*scenes, simulated.motion, interrupt.token());
     }
     const Motion& motion = simulated.motion;
+    if (second) stats.add_second(*second);
     stats.add_verdict(*scene, motion, options.common.quiet);
     const std::vector<std::int64_t> frames =
         wanted_frames(options, frame_count(scene->film, motion.duration));
@@ -122,7 +129,8 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
         return kExitDone;
     }
 
-    Painter painter(*scene, motion, {scene->film.width_px, scene->film.height_px});
+    Painter painter(*scene, motion,
+                    {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
     if (options.common.verbose) fmt::print(stderr, "carom: {}\n", painter.renderer());
     Sinks sinks;
     for (const OutputRequest& output : requests(options))
@@ -179,6 +187,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_option("--preset", options->encoding.preset, "x264's preset, e.g. medium");
     command->add_option("--threads", options->encoding.threads, "Threads of the encoder")
         ->check(CLI::Range(1, 128));
+    add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
     add_output_options(*command, options->common);

@@ -30,6 +30,18 @@ nlohmann::ordered_json balls_json(const Motion& motion) {
     return balls;
 }
 
+nlohmann::ordered_json second_json(const Stats::Second& second) {
+    nlohmann::ordered_json differences = nlohmann::ordered_json::object();
+    for (const SceneDifference& difference : second.differences)
+        differences[difference.path] = {difference.first, difference.second};
+    return {{"scene", second.file},
+            {"view", second.view == AgainstView::kSide ? "side" : "ghost"},
+            {"motion_hash", fmt::format("{:016x}", second.motion_hash)},
+            {"steps", second.steps},
+            {"impacts", second.impacts},
+            {"differences", std::move(differences)}};
+}
+
 }  // namespace
 
 void Stats::add_sink(const SinkTimes& times) {
@@ -43,6 +55,11 @@ void Stats::add_painter(const Painter& painter) {
     read_cpu_s += painter.read_cpu_s();
     renderer = painter.renderer();
     for (const auto& [name, effect] : painter.effects()) effects[name] = {effect.on, effect.why};
+}
+
+void Stats::add_second(const FilmedSecond& filmed) {
+    second = Second{filmed.run.scene.file, filmed.run.view,       filmed.motion_hash,
+                    filmed.report.steps,   filmed.report.impacts, filmed.run.differences};
 }
 
 void Stats::add_verdict(const Scene& scene, const Motion& motion, bool quiet) {
@@ -84,6 +101,7 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
     json["peak_rss_bytes"] = peak_rss_bytes();
     if (result != nullptr) {
         json["motion_hash"] = fmt::format("{:016x}", result->motion.hash());
+        if (stats.second) json["against"] = second_json(*stats.second);
         json["balls"] = balls_json(result->motion);
         if (stats.verdict)
             json["test"] = {{"passes", stats.verdict->passes},

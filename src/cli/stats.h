@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/against.h"
 #include "media/frame_sink.h"
 #include "render/painter.h"
 #include "render/rebound_verdict.h"
@@ -25,8 +26,19 @@ struct Stats {
     std::optional<ReboundVerdict> verdict;  ///< of the scene's test, if it has one
     std::map<std::string, Effect> effects;  ///< of the simulation and of the picture
 
+    /// A second run, in a film of two.
+    struct Second {
+        std::string file;
+        AgainstView view = AgainstView::kGhost;
+        std::uint64_t motion_hash = 0;
+        std::int64_t steps = 0, impacts = 0;
+        std::vector<SceneDifference> differences;
+    };
+    std::optional<Second> second;
+
     void add_sink(const SinkTimes& times);
     void add_painter(const Painter& painter);
+    void add_second(const FilmedSecond& filmed);
     /// Judges the scene's test, if it has one, and says the verdict on standard error.
     void add_verdict(const Scene& scene, const Motion& motion, bool quiet);
 };

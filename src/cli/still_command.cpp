@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/exit_codes.h"
@@ -19,6 +20,7 @@
 #include "core/failure.h"
 #include "media/output_file.h"
 #include "media/png.h"
+#include "render/offscreen.h"
 #include "render/painter.h"
 #include "sim/simulate.h"
 
@@ -31,6 +33,7 @@ struct StillOptions {
     std::string output;
     double time = 0;
     std::optional<double> strobe;  ///< s between instants
+    AgainstOptions against;
     CommonOptions common;
 };
 
@@ -69,25 +72,33 @@ std::vector<double> instants(const StillOptions& options) {
 int still(const StillOptions& options, const Interrupt& interrupt) {
     Stats stats;
     check_output(options);
-    std::optional<Scene> scene;
+    std::optional<FilmScenes> scenes;
     {
         const CpuTimer timer(stats.scene_cpu_s);
-        scene = load_scene(options.scene, options.common);
+        scenes = load_film_scenes(options.scene, options.common, options.against);
     }
-    if (!scene) return kExitInvalidScene;
+    if (!scenes) return kExitInvalidScene;
+    const Scene* scene = &scenes->scene;
 
     SimulationResult simulated;
+    std::optional<FilmedSecond> second;
     {
         const CpuTimer timer(stats.sim_cpu_s);
         simulated = simulate(*scene, interrupt.token());
+        second = simulate_second(*scenes, simulated.motion, interrupt.token());
     }
+    if (second) stats.add_second(*second);
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
     const double duration = simulated.motion.duration;
     if (!(options.time >= 0 && options.time <= duration))
         throw Failure(FailureKind::kInput, fmt::format("--time {}: the motion lasts from 0 to {} s",
                                                        options.time, duration));
 
-    Painter painter(*scene, simulated.motion, {scene->film.width_px, scene->film.height_px});
+    // Beyond a few million pixels well compiled shaders pay.
+    constexpr int kFewPixels = 1500 * 1000;
+    if (scene->film.width_px * scene->film.height_px <= kFewPixels) prefer_quick_compile();
+    Painter painter(*scene, simulated.motion,
+                    {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
     Image picture;
     painter.paint_strobe(instants(options), picture);
     if (interrupt.requested()) return interrupt.exit_code();
@@ -123,6 +134,7 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_option("-o,--output", options->output, "picture.png, or - for standard output")
         ->required()
         ->type_name("OUT.png");
+    add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
     add_output_options(*command, options->common);

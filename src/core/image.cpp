@@ -17,6 +17,12 @@ double luma(const std::uint8_t* bgra) {
     return 0.0722 * bgra[0] + 0.7152 * bgra[1] + 0.2126 * bgra[2];
 }
 
+/// How far the luma of two pixels is off, over black or over white, whichever shows more.
+double luma_off(const std::uint8_t* a, const std::uint8_t* b) {
+    const double over_black = luma(a) - luma(b), over_white = over_black - (a[3] - b[3]);
+    return std::abs(over_white) > std::abs(over_black) ? over_white : over_black;
+}
+
 }  // namespace
 
 ImageDifference compare_images(const Image& a, const Image& b) {
@@ -33,7 +39,7 @@ ImageDifference compare_images(const Image& a, const Image& b) {
         if (largest == 0) continue;
         ++result.differing;
         result.largest = std::max(result.largest, largest);
-        const double off = luma(&a.bgra[i]) - luma(&b.bgra[i]);
+        const double off = luma_off(&a.bgra[i], &b.bgra[i]);
         squares += off * off;
     }
     const double mean = squares / static_cast<double>(std::max<std::int64_t>(1, result.pixels));
@@ -49,10 +55,12 @@ Image difference_image(const Image& a, const Image& b) {
     constexpr int kFloor = 48, kGain = 8;
     Image result(a.width_px, a.height_px);
     for (std::size_t i = 0; i < a.bgra.size(); ++i) {
-        const int off = std::abs(int{a.bgra[i]} - int{b.bgra[i]});
-        const bool alpha = i % kChannels == kChannels - 1;
+        const std::size_t alpha = i - i % kChannels + kChannels - 1;
+        // Where only alpha differs, all channels show it.
+        const int off = std::max(std::abs(int{a.bgra[i]} - int{b.bgra[i]}),
+                                 std::abs(int{a.bgra[alpha]} - int{b.bgra[alpha]}));
         const int shown = off == 0 ? 0 : std::min(255, kFloor + kGain * off);
-        result.bgra[i] = static_cast<std::uint8_t>(alpha ? 255 : shown);
+        result.bgra[i] = static_cast<std::uint8_t>(i == alpha ? 255 : shown);
     }
     return result;
 }

@@ -34,7 +34,8 @@ struct ImageDifference {
     int largest = 0;             ///< largest difference of any channel anywhere, 0 ... 255
     std::int64_t pixels = 0;     ///< pixels compared
     std::int64_t differing = 0;  ///< pixels with any channel off at all
-    double psnr_luma_db = 0;     ///< of BT.709 luma; infinity when identical
+    /// Of BT.709 luma, of transparent pictures over black or white; infinity when identical.
+    double psnr_luma_db = 0;
     double differing_fraction() const {
         return pixels > 0 ? static_cast<double>(differing) / static_cast<double>(pixels) : 0.0;
     }
@@ -51,7 +52,8 @@ struct ImageTolerance {
 
 ImageDifference compare_images(const Image& a, const Image& b);
 
-/// A picture of the difference, amplified so that one step of 255 can be seen; black where equal.
+/// A picture of the difference, amplified so that one step of 255 can be seen; black where equal,
+/// grey where only alpha differs.
 /// Both pictures must have the same size.
 Image difference_image(const Image& a, const Image& b);
 

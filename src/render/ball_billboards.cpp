@@ -20,15 +20,18 @@ constexpr int kMostCasters = 8;  ///< balls that shade one ball; more would hard
 
 /// The style that a look means on a ball: patterns of surfaces are none on a ball.
 LookStyle ball_style(LookStyle style) {
-    return style == LookStyle::kChecker || style == LookStyle::kGrid ? LookStyle::kPlain : style;
+    return style >= LookStyle::kChecker ? LookStyle::kPlain : style;
 }
 
-GlProgram make_program(const Gl& gl, LookStyle style, const View& view, bool occluded) {
+GlProgram make_program(const Gl& gl, LookStyle style, const View& view, bool occluded, bool ghost,
+                       bool mirrored) {
     GlProgram::Sources sources;
     sources.name = fmt::format("ball, style {}", static_cast<int>(style));
     std::vector<std::string> defines = view_defines(view);
     defines.push_back(fmt::format("STYLE {}", static_cast<int>(style)));
     if (occluded) defines.push_back("OCCLUDED");
+    if (ghost) defines.push_back("GHOST");
+    if (mirrored) defines.push_back("MIRRORED");
     sources.vertex = assemble_shader(defines, {"ball_vertex"});
     sources.fragment = assemble_shader(defines, {"ball_markings", "ball_fragment"});
     sources.attributes.assign(kAttributes.begin(), kAttributes.end());
@@ -52,7 +55,8 @@ Vec3 linear(const Color& c) {
 }  // namespace
 
 BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& view,
-                               const Lights& lights, bool occluded)
+                               const Lights& lights, bool occluded,
+                               const std::optional<GhostLook>& ghost, Kind kind)
     : gl_(&gl),
       scene_(&scene),
       view_(view),
@@ -67,12 +71,20 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
         const LookStyle style =
             ball_style(scene.looks.at(static_cast<std::size_t>(ball.look)).style);
         if (programs_.count(style) != 0) continue;
-        GlProgram program = make_program(gl, style, view, occluded);
+        GlProgram program =
+            make_program(gl, style, view, occluded, ghost.has_value(), kind == Kind::kMirrored);
         set_common_uniforms(gl, program, view, lights);
+        if (ghost) {
+            const auto f = [](double value) { return static_cast<float>(value); };
+            gl.Uniform3f(program.uniform("u_ghost"), f(ghost->color.x()), f(ghost->color.y()),
+                         f(ghost->color.z()));
+            gl.Uniform1f(program.uniform("u_outline"), f(ghost->outline_px));
+        }
         gl.Uniform2f(program.uniform("u_size"), static_cast<float>(view.width_px()),
                      static_cast<float>(view.height_px()));
         gl.Uniform1i(program.uniform("u_facts"), 0);
         gl.Uniform1i(program.uniform("u_front"), 1);
+        gl.Uniform1i(program.uniform("u_mirror"), 1);
         gl.Uniform1i(program.uniform("u_casters"), 2);
         programs_.emplace(style, std::move(program));
     }
@@ -87,8 +99,36 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
 void BallBillboards::set_view(const View& view, const Lights& lights) {
     view_ = view;
     body_shade_ = BodyShade(*scene_, view, lights);
+    mirror_.reset();
     to_light_ = view_direction(view, lights.to_light);
     for (const auto& [style, program] : programs_) set_common_uniforms(*gl_, program, view, lights);
+}
+
+void BallBillboards::set_mirror(const Vec3& normal, double offset, const Lights& lights) {
+    const auto flipped = [&](const Vec3& v) { return Vec3(v - 2 * normal.dot(v) * normal); };
+    mirror_ = MirrorPlane{normal, offset};
+    to_light_ = flipped(view_direction(view_, lights.to_light));
+    const Vec3 up = flipped(view_direction(view_, Vec3::UnitZ()));
+    const auto f = [](double value) { return static_cast<float>(value); };
+    for (const auto& [style, program] : programs_) {
+        program.use();
+        gl_->Uniform3f(program.uniform("u_mirror_normal"), f(normal.x()), f(normal.y()),
+                       f(normal.z()));
+        gl_->Uniform1f(program.uniform("u_mirror_offset"), f(offset));
+        gl_->Uniform3f(program.uniform("u_up"), f(up.x()), f(up.y()), f(up.z()));
+        gl_->Uniform3f(program.uniform("u_light"), f(to_light_.x()), f(to_light_.y()),
+                       f(to_light_.z()));
+    }
+}
+
+BallShade BallBillboards::shade_on(const BallInView& ball) const {
+    if (!mirror_) return body_shade_.on(ball);
+    const Vec3& normal = mirror_->normal;
+    BallInView original = ball;
+    original.center -= 2 * (normal.dot(ball.center) - mirror_->offset) * normal;
+    BallShade shade = body_shade_.on(original);
+    shade.contact -= 2 * normal.dot(shade.contact) * normal;
+    return shade;
 }
 
 LookStyle BallBillboards::style_of(const BallInView& ball) const {
@@ -120,6 +160,32 @@ BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInVie
         casters.count.push_back(count);
     }
     return casters;
+}
+
+BallBillboards::Casters BallBillboards::find_hiders(const std::vector<BallInView>& ghosts,
+                                                    const std::vector<BallInView>& solid) const {
+    Casters hiders;
+    for (const BallInView& ghost : ghosts) {
+        const int first = static_cast<int>(hiders.vec4s.size() / 4);
+        int count = 0;
+        const Outline outline = project_sphere(ghost.center, ghost.radius, view_);
+        for (const BallInView& other : solid) {
+            // Apart in the picture, or behind the ghost, a ball hides nothing of it.
+            const Outline over = project_sphere(other.center, other.radius, view_);
+            constexpr double kSoft = 3;  // px of soft edges
+            const double reach = outline.major.norm() + over.major.norm() + kSoft;
+            if (outline.is_ellipse && over.is_ellipse &&
+                (outline.center - over.center).norm() > reach)
+                continue;
+            if (other.center.norm() - other.radius > ghost.center.norm() + ghost.radius) continue;
+            put(hiders.vec4s, (other.center - ghost.center) / ghost.radius,
+                other.radius / ghost.radius);
+            ++count;
+        }
+        hiders.first.push_back(first);
+        hiders.count.push_back(count);
+    }
+    return hiders;
 }
 
 void BallBillboards::append_instance(const BallInView& ball, const BallShade& shade,
@@ -154,12 +220,22 @@ void BallBillboards::append_instance(const BallInView& ball, const BallShade& sh
 }
 
 void BallBillboards::draw(const std::vector<BallInView>& balls, const StaticPicture& background) {
-    const Casters casters = find_casters(balls);
+    draw_instances(balls, find_casters(balls), background);
+}
+
+void BallBillboards::draw_ghosts(const std::vector<BallInView>& ghosts,
+                                 const std::vector<BallInView>& solid,
+                                 const StaticPicture& background) {
+    draw_instances(ghosts, find_hiders(ghosts, solid), background);
+}
+
+void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
+                                    const StaticPicture& background) {
     instances_.clear();
     std::vector<LookStyle> styles;  // of the balls that may be seen
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (!may_be_seen(balls[i], view_)) continue;
-        append_instance(balls[i], body_shade_.on(balls[i]), casters.first[i], casters.count[i]);
+        append_instance(balls[i], shade_on(balls[i]), casters.first[i], casters.count[i]);
         styles.push_back(style_of(balls[i]));
     }
     if (styles.empty()) return;
@@ -172,12 +248,16 @@ void BallBillboards::draw(const std::vector<BallInView>& balls, const StaticPict
         gl_->ActiveTexture(GL_TEXTURE0);
         gl_->BindTexture(GL_TEXTURE_2D, background.facts().name());
     }
+    if (mirror_) {
+        gl_->ActiveTexture(GL_TEXTURE1);
+        gl_->BindTexture(GL_TEXTURE_2D, background.mirror().name());
+    }
     gl_->BindVertexArray(vertex_array_.name());
     gl_->BindBuffer(GL_ARRAY_BUFFER, instance_buffer_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(float)),
                     instances_.data(), GL_STREAM_DRAW);
     gl_->Enable(GL_BLEND);
-    gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
     // One call per run of equal styles: the order from far to near must stay.
     constexpr std::size_t kStride = kInstanceFloats * sizeof(float);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "render/balls_in_view.h"
@@ -12,18 +13,38 @@
 
 namespace carom {
 
+/// How the balls of a second run look: translucent, within an outline.
+struct GhostLook {
+    Vec3 color = Vec3::Zero();  ///< of the outline, linear
+    double outline_px = 2;
+};
+
 /// Compiles one program per style of ball that the scene has, and no other.
 class BallBillboards {
   public:
+    enum class Kind { kBalls, kMirrored };
+    /// For mirror images, set_mirror() says in which mirror.
+    BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
+                   Kind kind)
+        : BallBillboards(gl, scene, view, lights, false, std::nullopt, kind) {}
     /// `gl` and `scene` must outlive it. `occluded`: static bodies may stand before balls.
     BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                   bool occluded);
+                   bool occluded, const std::optional<GhostLook>& ghost = std::nullopt,
+                   Kind kind = Kind::kBalls);
 
     /// Another view of the same size and kind.
     void set_view(const View& view, const Lights& lights);
 
+    /// What is drawn from now on are mirror images behind the plane normal . p = offset of view
+    /// space (their centres are already there): they get the light of the balls before it.
+    void set_mirror(const Vec3& normal, double offset, const Lights& lights);
+
     /// Draws the balls into the framebuffer that is bound, sorted as balls_at() gives them.
     void draw(const std::vector<BallInView>& balls, const StaticPicture& background);
+
+    /// The same for ghosts, after `solid` balls were drawn: of each ghost, what lies before them.
+    void draw_ghosts(const std::vector<BallInView>& ghosts, const std::vector<BallInView>& solid,
+                     const StaticPicture& background);
 
   private:
     struct Casters {
@@ -31,8 +52,13 @@ class BallBillboards {
         std::vector<int> first, count;  ///< per ball
     };
     Casters find_casters(const std::vector<BallInView>& balls) const;
+    Casters find_hiders(const std::vector<BallInView>& ghosts,
+                        const std::vector<BallInView>& solid) const;
+    void draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
+                        const StaticPicture& background);
     void append_instance(const BallInView& ball, const BallShade& shade, int first_caster,
                          int casters);
+    BallShade shade_on(const BallInView& ball) const;
     LookStyle style_of(const BallInView& ball) const;
 
     const Gl* gl_;
@@ -40,6 +66,11 @@ class BallBillboards {
     View view_;
     BodyShade body_shade_;
     Vec3 to_light_;  ///< view space
+    struct MirrorPlane {
+        Vec3 normal;
+        double offset;
+    };
+    std::optional<MirrorPlane> mirror_;
     double light_tan_;
     bool occluded_;
     std::map<LookStyle, GlProgram> programs_;

@@ -48,6 +48,11 @@ void BallShadows::set_view(const Scene& scene, const View& view, const Lights& l
     set_common_uniforms(*gl_, program_, view, lights);
 }
 
+const std::vector<float>& BallShadows::tiles_of(const std::vector<BallInView>& balls) {
+    tiles_.update(balls);
+    return tiles_.tiles();
+}
+
 void BallShadows::draw(const std::vector<BallInView>& balls, const StaticPicture& background) {
     tiles_.update(balls);
     const std::vector<float>& tiles = tiles_.tiles();
@@ -61,9 +66,10 @@ void BallShadows::draw(const std::vector<BallInView>& balls, const StaticPicture
     gl_->BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(float)),
                     tiles.data(), GL_STREAM_DRAW);
-    // Linear colour times the factor; alpha stays.
+    // Linear colour times the factor f. What is left of the light that shines through, 1 - alpha,
+    // is lessened by f as well: alpha becomes (1 - f) + f alpha.
     gl_->Enable(GL_BLEND);
-    gl_->BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+    gl_->BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size() / 4));
 }
 

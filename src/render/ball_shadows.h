@@ -24,6 +24,9 @@ class BallShadows {
     /// than the light that is left.
     void draw(const std::vector<BallInView>& balls, const StaticPicture& background);
 
+    /// The tiles that draw() may change: see ShadowTiles::tiles(). Holds until the next call.
+    const std::vector<float>& tiles_of(const std::vector<BallInView>& balls);
+
   private:
     const Gl* gl_;
     ShadowTiles tiles_;

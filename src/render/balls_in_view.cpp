@@ -76,13 +76,17 @@ std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scen
             ball.instant = static_cast<int>(k);
         }
     }
+    sort_for_drawing(balls, view);
+    return balls;
+}
+
+void sort_for_drawing(std::vector<BallInView>& balls, const View& view) {
     // Parallel rays are those of an eye at infinity, whose power goes with the depth alone.
     const auto power = [&](const BallInView& b) {
         return view.orthographic() ? b.center.z() : b.center.squaredNorm() - b.radius * b.radius;
     };
     std::stable_sort(balls.begin(), balls.end(),
                      [&](const BallInView& a, const BallInView& b) { return power(a) > power(b); });
-    return balls;
 }
 
 bool may_be_seen(const BallInView& ball, const View& view) {

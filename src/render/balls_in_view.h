@@ -40,6 +40,9 @@ std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& mot
 std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scene& scene,
                                  const Motion& motion, const View& view);
 
+/// Puts them in that order.
+void sort_for_drawing(std::vector<BallInView>& balls, const View& view);
+
 /// False where no pixel can show it: behind the eye, beside the picture, or around the eye.
 bool may_be_seen(const BallInView& ball, const View& view);
 

@@ -23,6 +23,7 @@ namespace carom {
     X(PFNGLBINDBUFFERPROC, BindBuffer) X(PFNGLBINDFRAGDATALOCATIONPROC, BindFragDataLocation)     \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer) X(PFNGLBINDTEXTUREPROC, BindTexture)             \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                  \
+    X(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate)                                      \
     X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                              \
     X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer) X(PFNGLBUFFERDATAPROC, BufferData)               \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus) X(PFNGLCLEARPROC, Clear)           \

@@ -9,6 +9,10 @@
 
 namespace carom {
 
+/// Asks the driver to compile shaders quickly rather than well, for a process that draws one
+/// picture of ordinary size: to be called before its first context. The pixels are the same.
+void prefer_quick_compile();
+
 /// Owns one context of OpenGL 3.3 core. OSMesa draws into memory of the caller; carom draws into
 /// its own framebuffer objects instead, so that memory is a 16 x 16 dummy.
 /// One thread at a time; several contexts may live in one process.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "render/font.h"
+#include "render/overlay_against.h"
 #include "render/overlay_clock.h"
 #include "render/overlay_labels.h"
 #include "render/overlay_peaks.h"
@@ -15,6 +16,7 @@
 #include "render/overlay_trail.h"
 #include "render/overlay_velocity.h"
 #include "render/overlay_verdict.h"
+#include "render/two_runs.h"
 
 namespace carom {
 
@@ -38,20 +40,26 @@ void lay_part(const Image& layer, const OverlayPainter::Rect& part, Image& targe
 
 class OverlayPainter::Impl {
   public:
-    Impl(const Scene& scene, const Motion& motion, const View& view)
-        : view_(view), scene_(scene), palette_(palette_of(scene.overlay.theme)) {
+    Impl(const Scene& scene, const Motion& motion, const View& view, const Runs& runs)
+        : view_(view),
+          scene_(scene),
+          ruler_scene_(runs.beside != nullptr ? runs.beside->scene : scene),
+          ruler_motion_(runs.beside != nullptr ? runs.beside->motion : motion),
+          palette_(palette_of(scene.overlay.theme)) {
         const Overlay& wanted = scene.overlay;
-        if (const auto staff = stand_ruler(scene, motion, view_))
-            ruler_ = lay_out_ruler(*staff, view_);
+        if (runs.taken != nullptr) obstacles_ = *runs.taken;
+        set_ruler();
         if (wanted.clock) {
             clock_.emplace(*wanted.clock, motion.duration, view_.width_px(), view_.height_px(),
                            kOverlayFontFamily, palette_);
             obstacles_.push_back(clock_->rect());
         }
         set_text();
+        const Scene& curves_scene = runs.curves ? runs.beside->scene : scene;
+        const Motion& curves_motion = runs.curves ? runs.beside->motion : motion;
         if (wanted.plot && !wanted.plot->balls.empty()) {
-            plot_.emplace(scene, motion, view_.width_px(), view_.height_px(), obstacles_, palette_,
-                          kOverlayFontFamily);
+            plot_.emplace(curves_scene, curves_motion, view_.width_px(), view_.height_px(),
+                          obstacles_, palette_, kOverlayFontFamily);
             obstacles_.push_back(plot_->rect());
         }
         if (const auto verdict = judge_rebound(scene, motion)) {
@@ -59,13 +67,37 @@ class OverlayPainter::Impl {
                              obstacles_, kOverlayFontFamily, palette_);
             obstacles_.push_back(verdict_->rect());
         }
+        if (runs.second != nullptr) {
+            OverlayAgainst::Surroundings around{around_ruler(), {}};
+            if (runs.curves) around.places = ball_places(motion, *runs.second, view_);
+            against_.emplace(scene, motion, *runs.second, view_.width_px(), view_.height_px(),
+                             around, kOverlayFontFamily, palette_);
+            obstacles_.push_back(against_->rect());
+        }
         if (wanted.peaks && !scene.balls.empty())
             peaks_.emplace(scene, motion, view_, around_ruler(), palette_, kOverlayFontFamily);
         if (wanted.velocity && !scene.balls.empty())
             velocity_.emplace(scene, motion, view_, palette_);
         if (wanted.labels && !scene.balls.empty())
             labels_.emplace(scene, motion, view_, kOverlayFontFamily);
-        if (wanted.trail && !scene.balls.empty()) trails_.emplace(scene, motion, view_);
+        if (wanted.trail && !scene.balls.empty())
+            trails_.emplace(curves_scene, curves_motion, view_);
+    }
+
+    void set_view(const View& view) {
+        view_ = view;
+        set_ruler();
+        if (peaks_) peaks_->set_view(view, around_ruler());
+        if (velocity_) velocity_->set_view(view);
+        if (labels_) labels_->set_view(view);
+        if (trails_) trails_->view_has_changed();
+    }
+
+    void set_ruler() {
+        ruler_.reset();
+        if (const auto staff = stand_ruler(ruler_scene_, ruler_motion_, view_))
+            ruler_ = lay_out_ruler(*staff, view_);
+        if (ruler_ && !ruler_font_) ruler_font_.emplace(kOverlayFontFamily, ruler_font_px(view_));
     }
 
     /// The obstacles and the ruler with its numbers.
@@ -115,10 +147,13 @@ class OverlayPainter::Impl {
         return changed;
     }
 
-    const View view_;
+    View view_;
     const Scene& scene_;
+    const Scene& ruler_scene_;  ///< of both runs, where there are two
+    const Motion& ruler_motion_;
     const Palette palette_;
     std::optional<RulerLayout> ruler_;
+    std::optional<Font> ruler_font_;
     std::optional<OverlayText> title_, caption_;
     std::optional<OverlayClock> clock_;
     std::vector<Rect> obstacles_;
@@ -128,21 +163,27 @@ class OverlayPainter::Impl {
     std::optional<OverlayPeaks> peaks_;
     std::optional<OverlayVelocity> velocity_;
     std::optional<OverlayPlot> plot_;
+    std::optional<OverlayAgainst> against_;
     Image under_;  ///< trails with the peaks over them, where there are both
     const Image nothing_;
 };
 
-OverlayPainter::OverlayPainter(const Scene& scene, const Motion& motion, const View& view)
-    : impl_(std::make_unique<Impl>(scene, motion, view)) {}
+OverlayPainter::OverlayPainter(const Scene& scene, const Motion& motion, const View& view,
+                               const Runs& runs)
+    : impl_(std::make_unique<Impl>(scene, motion, view, runs)) {}
 OverlayPainter::~OverlayPainter() = default;
 OverlayPainter::OverlayPainter(OverlayPainter&&) noexcept = default;
 OverlayPainter& OverlayPainter::operator=(OverlayPainter&&) noexcept = default;
 
+void OverlayPainter::set_view(const View& view) { impl_->set_view(view); }
+
+const std::vector<OverlayPainter::Rect>& OverlayPainter::obstacles() const {
+    return impl_->obstacles_;
+}
+
 Image OverlayPainter::static_under_layer() const {
     if (!impl_->ruler_) return {};
-    const View& view = impl_->view_;
-    return draw_ruler(*impl_->ruler_, view, Font(kOverlayFontFamily, ruler_font_px(view)),
-                      impl_->palette_);
+    return draw_ruler(*impl_->ruler_, impl_->view_, *impl_->ruler_font_, impl_->palette_);
 }
 
 bool OverlayPainter::has_moving_under_layer() const { return impl_->trails_ || impl_->peaks_; }
@@ -166,6 +207,7 @@ void OverlayPainter::draw_over(double t, Image& picture) const {
     if (impl_->title_) impl_->title_->draw(picture);
     if (impl_->caption_) impl_->caption_->draw(picture);
     if (impl_->plot_) impl_->plot_->draw(t, picture);
+    if (impl_->against_) impl_->against_->draw(t, picture);
     if (impl_->verdict_ && impl_->verdict_->shown_at(t)) impl_->verdict_->draw(picture);
     if (impl_->labels_) impl_->labels_->draw(t, impl_->obstacles_, picture);
 }

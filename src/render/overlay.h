@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 #include "motion/motion.h"
@@ -13,13 +14,27 @@
 
 namespace carom {
 
+struct SecondRun;
+struct JoinedRuns;
+
 /// Two layers, because a ball may pass in front of a ruler but never in front of the clock:
 /// `under` lies on the background and below the balls, `over` is drawn on the finished picture.
 /// Fonts come from a package (see packages.txt); a missing one is Failure(kRun).
 class OverlayPainter {
   public:
+    struct Rect;
+    /// What a picture adds that shows a second run; all must outlive the overlay.
+    struct Runs {
+        const SecondRun* second = nullptr;         ///< says what differs, on a plate
+        const JoinedRuns* beside = nullptr;        ///< both motions: the ruler stands beside them
+        bool curves = false;                       ///< trails and plot show both as well
+        const std::vector<Rect>* taken = nullptr;  ///< by others who draw on the picture
+    };
+
     /// `scene` and `motion` must outlive it.
-    OverlayPainter(const Scene& scene, const Motion& motion, const View& view);
+    OverlayPainter(const Scene& scene, const Motion& motion, const View& view)
+        : OverlayPainter(scene, motion, view, Runs{}) {}
+    OverlayPainter(const Scene& scene, const Motion& motion, const View& view, const Runs& runs);
     ~OverlayPainter();
     OverlayPainter(OverlayPainter&&) noexcept;
     OverlayPainter& operator=(OverlayPainter&&) noexcept;
@@ -43,6 +58,12 @@ class OverlayPainter {
                     std::max(bottom(), other.bottom()) - top};
         }
     };
+
+    /// Another view of the same size: what lies in the scene moves, clock, text and plot stay.
+    void set_view(const View& view);
+
+    /// What is drawn at fixed places over the picture.
+    const std::vector<Rect>& obstacles() const;
 
     /// The ruler: does not change with time, so it is drawn at each call and not kept. Empty
     /// picture if nothing is to be drawn.

@@ -51,6 +51,8 @@ class OverlayLabels {
     OverlayLabels(const Scene& scene, const Motion& motion, const View& view,
                   const std::string& font_family);
 
+    void set_view(const View& view) { view_ = view; }  ///< of the same size
+
     /// The places at t, one entry per ball.
     std::vector<std::optional<LabelPlace>> place(
         double t, const std::vector<OverlayPainter::Rect>& obstacles) const;

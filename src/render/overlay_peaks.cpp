@@ -148,15 +148,24 @@ OverlayPeaks::OverlayPeaks(const Scene& scene, const Motion& motion, const View&
                            const std::vector<Rect>& taken, const Palette& palette,
                            const std::string& font_family)
     : scene_(scene),
+      motion_(motion),
       view_(view),
       palette_(palette),
       font_(font_family, letters_px(scene.overlay.peaks->size_px, view.height_px())),
       marks_(lay_out_peaks(scene, motion, view, font_, taken)),
       picture_(view.width_px(), view.height_px()) {}
 
+void OverlayPeaks::set_view(const View& view, const std::vector<Rect>& taken) {
+    view_ = view;
+    marks_ = lay_out_peaks(scene_, motion_, view, font_, taken);
+    stale_ = stale_ || drawn_ > 0;
+    drawn_ = 0;
+}
+
 Rect OverlayPeaks::update(double t) {
     Rect changed;
-    if (drawn_ > 0 && marks_[drawn_ - 1].time > t) {
+    if (stale_ || (drawn_ > 0 && marks_[drawn_ - 1].time > t)) {
+        stale_ = false;
         std::fill(picture_.bgra.begin(), picture_.bgra.end(), std::uint8_t{0});
         drawn_ = 0;
         changed = {0, 0, picture_.width_px, picture_.height_px};

@@ -41,6 +41,9 @@ class OverlayPeaks {
                  const std::vector<OverlayPainter::Rect>& taken, const Palette& palette,
                  const std::string& font_family);
 
+    /// Another view of the same size.
+    void set_view(const View& view, const std::vector<OverlayPainter::Rect>& taken);
+
     /// Returns what changed since the last call.
     OverlayPainter::Rect update(double t);
     const Image& picture() const { return picture_; }
@@ -49,11 +52,13 @@ class OverlayPeaks {
     void draw(Canvas& canvas, const PeakMark& mark) const;
 
     const Scene& scene_;
-    const View view_;
+    const Motion& motion_;
+    View view_;
     Palette palette_;
     Font font_;
     std::vector<PeakMark> marks_;
     std::size_t drawn_ = 0;  ///< marks in the picture
+    bool stale_ = false;     ///< the picture is another view's
     Image picture_;
 };
 

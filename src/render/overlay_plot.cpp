@@ -210,13 +210,20 @@ void OverlayPlot::draw_grid(Canvas& canvas, const PlotAxes& axes) const {
 /// The balls' names with their colours, at the upper right of the axes; only if all have room.
 void OverlayPlot::draw_names(Canvas& canvas) const {
     const double size = font_.size_px(), pitch = 1.35 * size, dash = 1.3 * size;
+    // Curves of one name, those of a second run, are named once.
+    std::vector<std::string> names;
+    std::vector<Ink> inks;
     double widest = 0;
-    for (const int ball : scene_.overlay.plot->balls) {
-        const std::string& name = scene_.balls[static_cast<std::size_t>(ball)].name;
-        widest = std::max(widest, font_.lay_out(label_text(name)).width_px);
+    for (std::size_t i = 0; i < inks_.size(); ++i) {
+        const auto ball = static_cast<std::size_t>(scene_.overlay.plot->balls[i]);
+        const std::string name = label_text(scene_.balls[ball].name);
+        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        names.push_back(name);
+        inks.push_back(inks_[i]);
+        widest = std::max(widest, font_.lay_out(name).width_px);
     }
     const double width = widest + dash + 0.9 * size;
-    const double height = pitch * static_cast<double>(inks_.size()) + 0.3 * size;
+    const double height = pitch * static_cast<double>(names.size()) + 0.3 * size;
     if (width > 0.6 * (right_px_ - left_px_) || height > bottom_px_ - top_px_) return;
     cairo_t* c = canvas.context();
     const double x = right_px_ - width;
@@ -224,15 +231,13 @@ void OverlayPlot::draw_names(Canvas& canvas) const {
     canvas.use(with_alpha(palette_.paper, 0.85));
     cairo_fill(c);
     double y = top_px_ + 0.15 * size + 0.5 * pitch;
-    for (std::size_t i = 0; i < inks_.size(); ++i, y += pitch) {
+    for (std::size_t i = 0; i < names.size(); ++i, y += pitch) {
         cairo_move_to(c, x + 0.2 * size, std::round(y));
         cairo_line_to(c, x + 0.2 * size + dash, std::round(y));
-        canvas.use(inks_[i]);
+        canvas.use(inks[i]);
         cairo_set_line_width(c, std::max(kLinePx * unit_, 1.0) * 1.3);
         cairo_stroke(c);
-        const int ball = scene_.overlay.plot->balls[i];
-        const std::string& name = scene_.balls[static_cast<std::size_t>(ball)].name;
-        font_.draw(canvas, font_.lay_out(label_text(name)), x + dash + 0.6 * size,
+        font_.draw(canvas, font_.lay_out(names[i]), x + dash + 0.6 * size,
                    std::round(y + 0.5 * font_.cap_height_px()), palette_.ink);
     }
 }

@@ -70,6 +70,11 @@ void OverlayTrails::start_over() {
         lines_.push_back({TrailCurve(ball, view_, motion_.duration), {}});
 }
 
+void OverlayTrails::view_has_changed() {
+    start_over();
+    raster_.clear();
+}
+
 OverlayPainter::Rect OverlayTrails::update(double t) {
     t = std::clamp(t, 0.0, motion_.duration);
     raster_.take_back();

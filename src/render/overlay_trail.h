@@ -23,6 +23,9 @@ class OverlayTrails {
     /// `scene`, `motion` and `view` must outlive it.
     OverlayTrails(const Scene& scene, const Motion& motion, const View& view);
 
+    /// All is drawn anew.
+    void view_has_changed();
+
     /// Returns what changed since the last call.
     OverlayPainter::Rect update(double t);
     const Image& picture() const { return raster_.picture(); }

@@ -24,6 +24,8 @@ class OverlayVelocity {
     OverlayVelocity(const Scene& scene, const Motion& motion, const View& view,
                     const Palette& palette);
 
+    void set_view(const View& view) { view_ = view; }
+
     /// Metres of arrow per m/s: the scene's, or 1, 2 or 5 times a power of ten, such that the
     /// fastest ball's arrow is at most a quarter of the picture high at the motion's distance.
     double scale_s() const { return scale_s_; }

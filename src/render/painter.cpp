@@ -8,21 +8,30 @@
 
 #include "core/check.h"
 #include "core/failure.h"
+#include "render/alpha_encoding.h"
 #include "render/ball_billboards.h"
+#include "render/ball_reflections.h"
 #include "render/ball_shadows.h"
 #include "render/balls_in_view.h"
+#include "render/bodies_in_view.h"
 #include "render/camera_motion.h"
 #include "render/driver_clock.h"
+#include "render/exposure.h"
 #include "render/offscreen.h"
 #include "render/overlay.h"
 #include "render/picture_layer.h"
+#include "render/picture_mean.h"
 #include "render/shadow_tiles.h"
+#include "render/side_by_side.h"
 #include "render/static_picture.h"
 #include "render/surface_table.h"
+#include "render/two_runs.h"
 
 namespace carom {
 
 namespace {
+
+constexpr double kGhostOutlinePx = 2.2;  // at 720
 
 double median_radius(const Scene& scene) {
     std::vector<double> radii;
@@ -50,6 +59,9 @@ class Painter::Impl {
     Impl(const Scene& scene, const Motion& motion, const PainterOptions& options)
         : scene_(scene),
           motion_(motion),
+          against_(options.against),
+          part_(options.part),
+          transparent_(scene.background == Background::kTransparent),
           gl_(context_.gl()),
           width_px_(options.width_px),
           height_px_(options.height_px) {
@@ -58,9 +70,12 @@ class Painter::Impl {
         check_size();
         const double begin = clock_.now_s();
         const double aspect = static_cast<double>(width_px_) / height_px_;
-        camera_ = choose_camera(scene, motion, aspect);
+        if (against_ != nullptr) joined_.emplace(join_runs(scene, motion, *against_));
+        camera_ = part_ != nullptr ? part_->camera
+                  : joined_        ? choose_camera(joined_->scene, joined_->motion, aspect)
+                                   : choose_camera(scene, motion, aspect);
         moving_ = camera_moves(camera_);
-        const Camera camera = camera_at(camera_, motion, scene.film.start);
+        const Camera camera = camera_at(camera_, camera_motion(), scene.film.start);
         const View& view = view_.emplace(camera, width_px_, height_px_);
         // The lamp stays where it is, however the camera moves.
         lights_ = choose_lights(view);
@@ -72,15 +87,25 @@ class Painter::Impl {
         color_ =
             make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
         frame_ = make_framebuffer(gl_, "the picture", {&color_});
-        background_.emplace(gl_, view, lights_, surfaces_, scale_of(scene, camera));
-        overlay_.emplace(scene, motion, view);
+        background_.emplace(gl_, view, lights_, surfaces_, scale_of(scene, camera), transparent_);
+        set_overlay(view);
         draw_static_layer();
         if (overlay_->has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
         const bool on_surfaces = moving_ ? !scene.surfaces.empty() : surfaces_.count() > 0;
         if (on_surfaces && !scene.balls.empty()) {
             shadows_.emplace(gl_, scene, view, lights_, seen_in_tiles());
         }
+        if (wants_reflection(scene) && !scene.balls.empty() && !transparent_)
+            reflections_.emplace(gl_, scene, view, lights_, scale_of(scene, camera));
         balls_.emplace(gl_, scene, view, lights_, surfaces_.can_occlude());
+        if (against_ != nullptr) {
+            const Ink ink = ghost_ink(scene.overlay.theme);
+            const GhostLook look{
+                {linear_from_srgb(ink.r), linear_from_srgb(ink.g), linear_from_srgb(ink.b)},
+                std::max(1.2, overlay_px(kGhostOutlinePx, height_px_))};
+            ghosts_.emplace(gl_, against_->scene, view, lights_, surfaces_.can_occlude(), look);
+        }
+        if (scene.film.shutter_deg > 0) mean_.emplace(gl_, width_px_, height_px_);
         check_not_blank();
         gl_.check("preparing the picture");
         draw_cpu_s_ += clock_.now_s() - begin;
@@ -103,18 +128,21 @@ class Painter::Impl {
         context_.make_current();
         if (out.width_px != width_px_ || out.height_px != height_px_)
             out = Image(width_px_, height_px_);
+        const std::vector<double> exposed =
+            mean_ && instants.size() == 1 ? exposure_at(t) : std::vector<double>{};
+        const bool blurred = exposed.size() > 1;
+        most_instants_ = std::max(most_instants_, exposed.size());
+        if (blurred) sum_exposure(exposed, t);
         if (moving_) move_camera(t);
-        copy_background();
-        const std::vector<BallInView> balls = balls_at(instants, scene_, motion_, *view_);
-        if (shadows_) shadows_->draw(balls, *background_);
-        if (moving_layer_) draw_moving_layer(t);
-        balls_->draw(balls, *background_);
+        draw_picture(bodies_at(instants), t, {0, 0, width_px_, height_px_});
+        if (blurred) mean_->write(frame_);
         gl_.Finish();
         const double drawn = clock_.now_s();
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_.name());
         gl_.ReadPixels(0, 0, width_px_, height_px_, GL_BGRA, GL_UNSIGNED_BYTE, out.bgra.data());
         gl_.check("drawing a frame");
         const double read = clock_.now_s();
+        if (transparent_) encode_alpha(out);
         overlay_->draw_over(t, out);
         draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
         read_cpu_s_ += read - drawn;
@@ -147,23 +175,88 @@ class Painter::Impl {
 
     /// Everything that depends on the view, for the camera's place at t.
     void move_camera(double t) {
-        const Camera camera = camera_at(camera_, motion_, t);
+        const Camera camera = camera_at(camera_, camera_motion(), t);
         const View& view = view_.emplace(camera, width_px_, height_px_);
         surfaces_ = make_surface_table(scene_, view);
         background_->redraw(view, lights_, surfaces_, scale_of(scene_, camera));
-        overlay_.emplace(scene_, motion_, view);
+        overlay_->set_view(view);
         draw_static_layer();
         if (shadows_) shadows_->set_view(scene_, view, lights_, seen_in_tiles());
         balls_->set_view(view, lights_);
+        if (reflections_) reflections_->set_view(view, lights_, scale_of(scene_, camera));
+        if (ghosts_) ghosts_->set_view(view, lights_);
+    }
+
+    const Motion& camera_motion() const {
+        return part_ != nullptr ? *part_->camera_motion : motion_;
+    }
+
+    void set_overlay(const View& view) {
+        OverlayPainter::Runs runs;
+        if (against_ != nullptr) runs = {against_, &*joined_, true, nullptr};
+        if (part_ != nullptr) runs = {nullptr, part_->joined, false, &part_->taken};
+        overlay_.emplace(scene_, motion_, view, runs);
+    }
+
+    Bodies bodies_at(const std::vector<double>& instants) const {
+        return carom::bodies_at(instants, scene_, motion_, against_, *view_);
+    }
+
+    /// Everything below the text, at the view as it is; of the background, the part in `bounds`.
+    void draw_picture(const Bodies& bodies, double t, const TileMask::Bounds& bounds) {
+        copy_background(bounds);
+        if (shadows_) shadows_->draw(bodies.balls, *background_);
+        if (reflections_) reflections_->draw(bodies.balls, *background_, frame_);
+        if (moving_layer_) draw_moving_layer(t);
+        balls_->draw(bodies.balls, *background_);
+        if (ghosts_) ghosts_->draw_ghosts(bodies.ghosts, bodies.balls, *background_);
+    }
+
+    std::vector<double> exposure_at(double t) const {
+        const Exposure exposure(scene_.film, motion_.duration, t);
+        double way = 0;
+        if (moving_) way = camera_way_px(camera_, camera_motion(), exposure, width_px_, height_px_);
+        // Balls are seen from where the camera is at t.
+        const View view(camera_at(camera_, camera_motion(), t), width_px_, height_px_);
+        way += ball_way_px(scene_, motion_, exposure, view);
+        if (against_ != nullptr)
+            way = std::max(way, ball_way_px(against_->scene, against_->motion, exposure, view));
+        return exposure_instants(exposure, t, way);
+    }
+
+    /// Sums the pictures of `instants` wherever they differ. Trails and the like are those of t.
+    void sum_exposure(const std::vector<double>& instants, double t) {
+        TileMask mask(width_px_, height_px_, PictureMean::kTilePx);
+        std::vector<Bodies> bodies;
+        if (moving_) {
+            mask.add_all();
+        } else {
+            for (const double instant : instants) bodies.push_back(bodies_at({instant}));
+            for (const Bodies& now : bodies) mark_bodies(now, mask);
+        }
+        mean_->begin(mask, static_cast<int>(instants.size()));
+        for (std::size_t i = 0; i < instants.size(); ++i) {
+            if (moving_) move_camera(instants[i]);
+            draw_picture(moving_ ? bodies_at({instants[i]}) : bodies[i], t, mask.bounds());
+            mean_->add(color_);
+        }
+    }
+
+    /// The tiles of the balls and of the shadows that they cast.
+    void mark_bodies(const Bodies& bodies, TileMask& mask) {
+        static_assert(PictureMean::kTilePx == ShadowTiles::kTilePx);
+        mark_balls(bodies.balls, *view_, mask);
+        mark_balls(bodies.ghosts, *view_, mask);
+        if (reflections_) mark_balls(reflections_->images(bodies.balls), *view_, mask);
+        if (!shadows_) return;
+        const std::vector<float>& tiles = shadows_->tiles_of(bodies.balls);
+        for (std::size_t i = 0; i < tiles.size(); i += 4)
+            mask.add_tile(static_cast<int>(tiles[i]), static_cast<int>(tiles[i + 1]));
     }
 
     void draw_static_layer() {
         const Image layer = overlay_->static_under_layer();
-        if (layer.width_px == 0) return;
-        PictureLayer ruler(gl_, width_px_, height_px_);
-        ruler.update(layer, 0, 0, width_px_, height_px_);
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, background_->color_framebuffer().name());
-        ruler.draw();
+        if (layer.width_px != 0) background_->lay_over(layer);
     }
 
     void draw_moving_layer(double t) {
@@ -175,21 +268,27 @@ class Painter::Impl {
         moving_layer_->draw();
     }
 
-    void copy_background() {
+    void copy_background(const TileMask::Bounds& part) {
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, background_->color_framebuffer().name());
         gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_.name());
-        gl_.BlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px_, height_px_,
-                            GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl_.BlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top,
+                            part.right, part.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         gl_.Viewport(0, 0, width_px_, height_px_);
     }
 
-    /// Drivers are known that draw nothing and report no error. The picture is opaque.
+    /// Drivers are known that draw nothing and report no error. A picture is opaque, or, where it
+    /// shows nothing, transparent; never in between where no edge is.
     void check_not_blank() {
-        copy_background();
+        constexpr float kMark = 0.3F;
+        constexpr int kMarkByte = 77;
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
+        gl_.ClearColor(kMark, kMark, kMark, transparent_ ? kMark : 0.0F);
+        gl_.Clear(GL_COLOR_BUFFER_BIT);
+        copy_background({0, 0, width_px_, height_px_});
         std::uint8_t pixel[4] = {};
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_.name());
         gl_.ReadPixels(width_px_ / 2, height_px_ / 2, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
-        if (pixel[3] != 255)
+        if (transparent_ ? pixel[3] == kMarkByte : pixel[3] != 255)
             throw Failure(FailureKind::kRun,
                           "the driver draws blank pictures and reports no error (" +
                               context_.renderer() + ")");
@@ -197,6 +296,10 @@ class Painter::Impl {
 
     const Scene& scene_;
     const Motion& motion_;
+    const SecondRun* against_;
+    const PicturePart* part_;
+    std::optional<JoinedRuns> joined_;
+    bool transparent_;
     OffscreenContext context_;  // outlives every owner of GL objects below
     const Gl& gl_;
     DriverClock clock_;
@@ -212,7 +315,11 @@ class Painter::Impl {
     std::optional<OverlayPainter> overlay_;
     std::optional<PictureLayer> moving_layer_;
     std::optional<BallShadows> shadows_;
+    std::optional<BallReflections> reflections_;
     std::optional<BallBillboards> balls_;
+    std::optional<BallBillboards> ghosts_;  ///< of the second run
+    std::optional<PictureMean> mean_;       ///< where there is a shutter
+    std::size_t most_instants_ = 0;         ///< of one picture
     double draw_cpu_s_ = 0;
     double read_cpu_s_ = 0;
 };
@@ -227,6 +334,8 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
         marked |= scene_.looks[static_cast<std::size_t>(ball.look)].style != LookStyle::kPlain;
     const Overlay& overlay = scene_.overlay;
     add("shadows", shadows_.has_value(), "balls over surfaces", "no ball, or no surface in view");
+    add("reflection", reflections_.has_value(), "a look with a reflection",
+        transparent_ ? "not on a transparent background" : "no look asks for it");
     add("occlusion", surfaces_.can_occlude(), "bodies that balls can pass behind",
         "nothing that a ball could pass behind");
     add("markings", marked, "balls with a style", "all balls are plain");
@@ -240,22 +349,34 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
     add("peaks", overlay.peaks.has_value(), "the scene asks for it", "not asked for");
     add("velocity", overlay.velocity.has_value(), "the scene asks for it", "not asked for");
     add("plot", overlay.plot.has_value(), "the scene asks for it", "not asked for");
+    add("against", ghosts_.has_value(), "a second run as ghosts", "no second run");
+    add("transparent", transparent_, "the scene asks for it", "not asked for");
+    add("motion_blur", mean_.has_value(), "film.shutter_deg is above 0", "film.shutter_deg is 0");
+    if (mean_)
+        result["motion_blur"].why += fmt::format("; at most {} instants a picture", most_instants_);
     return result;
 }
 
-Painter::Painter(const Scene& scene, const Motion& motion, const PainterOptions& options)
-    : impl_(std::make_unique<Impl>(scene, motion, options)) {}
+Painter::Painter(const Scene& scene, const Motion& motion, const PainterOptions& options) {
+    if (options.against != nullptr && options.against->view == AgainstView::kSide)
+        halves_ = std::make_unique<SideBySide>(scene, motion, *options.against, options.width_px,
+                                               options.height_px);
+    else
+        impl_ = std::make_unique<Impl>(scene, motion, options);
+}
 Painter::~Painter() = default;
 Painter::Painter(Painter&&) noexcept = default;
 Painter& Painter::operator=(Painter&&) noexcept = default;
 
-void Painter::paint(double t, Image& out) { impl_->paint({t}, out); }
+void Painter::paint(double t, Image& out) { paint_strobe({t}, out); }
 void Painter::paint_strobe(const std::vector<double>& instants, Image& out) {
-    impl_->paint(instants, out);
+    halves_ ? halves_->paint(instants, out) : impl_->paint(instants, out);
 }
-std::string Painter::renderer() const { return impl_->renderer(); }
-std::map<std::string, Painter::DrawnEffect> Painter::effects() const { return impl_->effects(); }
-double Painter::draw_cpu_s() const { return impl_->draw_cpu_s(); }
-double Painter::read_cpu_s() const { return impl_->read_cpu_s(); }
+std::string Painter::renderer() const { return halves_ ? halves_->renderer() : impl_->renderer(); }
+std::map<std::string, Painter::DrawnEffect> Painter::effects() const {
+    return halves_ ? halves_->effects() : impl_->effects();
+}
+double Painter::draw_cpu_s() const { return halves_ ? halves_->draw_cpu_s() : impl_->draw_cpu_s(); }
+double Painter::read_cpu_s() const { return halves_ ? halves_->read_cpu_s() : impl_->read_cpu_s(); }
 
 }  // namespace carom

@@ -12,10 +12,17 @@
 
 namespace carom {
 
+struct PicturePart;
+struct SecondRun;
+
 struct PainterOptions {
     int width_px = 1280;
     int height_px = 720;
+    const SecondRun* against = nullptr;  ///< a run to show with the first; must outlive the painter
+    const PicturePart* part = nullptr;   ///< this is half of a picture (render/side_by_side.h)
 };
+
+class SideBySide;
 
 /// Owns one offscreen context; use it from the thread that made it. `scene` and `motion` must
 /// outlive it. Everything that can fail (context, shaders, framebuffer, fonts) fails in the
@@ -27,12 +34,13 @@ class Painter {
     Painter(Painter&&) noexcept;
     Painter& operator=(Painter&&) noexcept;
 
-    /// Draws the instant `t` [s of the motion] into `out`, which is resized if need be.
+    /// Draws the instant `t` [s of the motion] into `out`, which is resized if need be; with the
+    /// blur of the film's shutter around it.
     void paint(double t, Image& out);
 
     /// Draws the balls of all `instants` [s, increasing, at least one] into one picture, as under a
-    /// stroboscope: nearer ones in front, each with its own shadows. Clock, labels and trails are
-    /// those of the last instant.
+    /// stroboscope: nearer ones in front, each sharp, with its own shadows. Clock, labels and
+    /// trails are those of the last instant.
     void paint_strobe(const std::vector<double>& instants, Image& out);
 
     /// Renderer and version strings of the driver, for --stats and for failed goldens.
@@ -52,7 +60,8 @@ class Painter {
 
   private:
     class Impl;
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<Impl> impl_;          ///< of a single picture
+    std::unique_ptr<SideBySide> halves_;  ///< of two
 };
 
 }  // namespace carom

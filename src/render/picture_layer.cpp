@@ -95,7 +95,7 @@ void PictureLayer::draw() {
     gl_->BindTexture(GL_TEXTURE_2D, texture_.name());
     gl_->BindVertexArray(vertex_array_.name());
     gl_->Enable(GL_BLEND);
-    gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, filled_count_);
 }
 

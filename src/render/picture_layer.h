@@ -18,7 +18,7 @@ class PictureLayer {
     /// Takes over a rectangle of `layer` [px], which has the layer's size; clipped to it.
     void update(const Image& layer, int x, int y, int width, int height);
 
-    /// Blends the layer in linear light into the framebuffer that is bound; its alpha stays.
+    /// Blends the layer in linear light into the framebuffer that is bound.
     void draw();
 
   private:

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "render/linear_layer.h"
+
 namespace carom {
 
 namespace {
@@ -17,6 +19,9 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
     if (table.boxes > 0) defines.push_back("BOXES");
     if (table.spheres > 0) defines.push_back("SPHERES");
     if (table.capsules > 0) defines.push_back("CAPSULES");
+    if (table.wood) defines.push_back("WOOD");
+    if (table.court) defines.push_back("COURT");
+    if (table.reflection) defines.push_back("REFLECTION");
     // Parallel rays see where a plane ends that they meet edge-on.
     if (table.count() > 1 || table.can_occlude() || view.orthographic())
         defines.push_back("SEVERAL");
@@ -27,21 +32,27 @@ GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines) {
     GlProgram::Sources sources;
     sources.name = "static picture";
     sources.vertex = assemble_shader({}, {"fullscreen_vertex"});
-    sources.fragment = assemble_shader(defines, {"surfaces", "static_fragment"});
-    sources.outputs = {"out_color", "out_front", "out_facts"};
+    sources.fragment =
+        assemble_shader(defines, {"surfaces", "surface_patterns", "static_fragment"});
+    sources.outputs = {"out_color", "out_front", "out_facts", "out_mirror"};
     return GlProgram(gl, sources);
 }
 
 }  // namespace
 
 StaticPicture::StaticPicture(const Gl& gl, const View& view, const Lights& lights,
-                             const SurfaceTable& table, const PictureScale& scale)
-    : gl_(&gl) {
+                             const SurfaceTable& table, const PictureScale& scale, bool transparent)
+    : gl_(&gl), transparent_(transparent) {
     const int width = view.width_px(), height = view.height_px();
     color_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     front_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     facts_ = make_texture(gl, GL_RGBA32UI, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-    all_ = make_framebuffer(gl, "the static picture", {&color_, &front_, &facts_});
+    std::vector<const GlTexture*> targets = {&color_, &front_, &facts_};
+    if (table.reflection) {
+        mirror_.emplace(make_texture(gl, GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT));
+        targets.push_back(&*mirror_);
+    }
+    all_ = make_framebuffer(gl, "the static picture", targets);
     redraw(view, lights, table, scale);
     color_framebuffer_ = make_framebuffer(gl, "copies of the static picture", {&color_});
     facts_framebuffer_ = make_framebuffer(gl, "facts of the static picture", {&facts_});
@@ -51,6 +62,7 @@ void StaticPicture::redraw(const View& view, const Lights& lights, const Surface
                            const PictureScale& scale) {
     const Gl& gl = *gl_;
     std::vector<std::string> defines = defines_for(view, table);
+    if (transparent_) defines.push_back("TRANSPARENT");
     if (!program_ || defines != defines_) {
         program_ = make_program(gl, defines);
         defines_ = std::move(defines);
@@ -73,6 +85,21 @@ void StaticPicture::redraw(const View& view, const Lights& lights, const Surface
     gl.Disable(GL_BLEND);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.check("drawing the static picture");
+}
+
+void StaticPicture::lay_over(const Image& layer) {
+    const LayerBounds part = filled_part(layer);
+    if (part.empty()) return;
+    Image below(part.right - part.left, part.bottom - part.top);
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, color_framebuffer_.name());
+    gl_->ReadPixels(part.left, part.top, below.width_px, below.height_px, GL_BGRA, GL_UNSIGNED_BYTE,
+                    below.bgra.data());
+    lay_over_in_linear_light(layer, part.left, part.top, below);
+    gl_->ActiveTexture(GL_TEXTURE0);
+    gl_->BindTexture(GL_TEXTURE_2D, color_.name());
+    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, part.left, part.top, below.width_px, below.height_px,
+                       GL_BGRA, GL_UNSIGNED_BYTE, below.bgra.data());
+    gl_->check("laying a layer over the static picture");
 }
 
 std::vector<TileBound> StaticPicture::tile_bounds(const View& view, int tile_px) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image.h"
 #include "render/gl.h"
 #include "render/lights.h"
 #include "render/surface_table.h"
@@ -26,16 +27,21 @@ struct TileBound {
 /// The static picture and, per pixel, what the passes of a frame need to know about it.
 class StaticPicture {
   public:
-    /// Draws it. `gl` must outlive it.
+    /// Draws it. `gl` must outlive it. `transparent`: sky and planes are left out, but for the
+    /// shadows on them; colours are then premultiplied in linear light.
     StaticPicture(const Gl& gl, const View& view, const Lights& lights, const SurfaceTable& table,
-                  const PictureScale& scale);
+                  const PictureScale& scale, bool transparent = false);
 
     /// Draws it again for another view of the same size and kind.
     void redraw(const View& view, const Lights& lights, const SurfaceTable& table,
                 const PictureScale& scale);
 
-    /// A framebuffer with the colours alone: the source of each frame's copy, and the place where
-    /// layers that do not move may be drawn once.
+    /// Lays a picture of the same size over the colours, in linear light: layers that do not move.
+    /// By the processor, since compiling a shader for a picture's ruler would take ten times as
+    /// long.
+    void lay_over(const Image& layer);
+
+    /// A framebuffer with the colours alone: the source of each frame's copy.
     const GlFramebuffer& color_framebuffer() const { return color_framebuffer_; }
 
     /// RGBA32UI: bits of the depth of the nearer and of the farther layer; 10 bits each of the
@@ -45,14 +51,20 @@ class StaticPicture {
     /// Colour of the nearer layer alone.
     const GlTexture& front() const { return front_; }
 
+    /// RGBA32F, only where a look has a reflection: the linear light that the surface mirrors of
+    /// sky and bodies; how far these are from it, in lengths of the pixel's ray of depth 1.
+    const GlTexture& mirror() const { return *mirror_; }
+
     /// Bounds of square tiles, row by row from the top left; reads the facts back.
     std::vector<TileBound> tile_bounds(const View& view, int tile_px) const;
 
   private:
     const Gl* gl_;
+    bool transparent_;
     std::vector<std::string> defines_;  ///< of the program
     std::optional<GlProgram> program_;
     GlTexture color_, front_, facts_;
+    std::optional<GlTexture> mirror_;
     GlFramebuffer all_, color_framebuffer_, facts_framebuffer_;
 };
 

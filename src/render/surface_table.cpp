@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "render/lights.h"
 
@@ -22,20 +24,35 @@ Vec3 linear(const Color& c) {
     return {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
 }
 
+/// As surface_patterns.glsl numbers them.
+double pattern_number(LookStyle style) {
+    switch (style) {
+        case LookStyle::kChecker:
+            return 1;
+        case LookStyle::kGrid:
+            return 2;
+        case LookStyle::kWood:
+            return 3;
+        case LookStyle::kCourt:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
 void put_look(Record& record, const Look& look) {
-    const double style =
-        look.style == LookStyle::kChecker ? 1.0 : (look.style == LookStyle::kGrid ? 2.0 : 0.0);
-    put(record, 4, linear(look.color), style);
+    put(record, 4, linear(look.color), pattern_number(look.style));
     put(record, 5, linear(look.second_color), look.tile_m);
 }
 
 /// Pattern axes in the plane; for a floor they are the world's x and y.
-void put_pattern(Record& record, const PlaneShape& plane, double tile, const View& view) {
+void put_pattern(Record& record, const PlaneShape& plane, const Look& look, const View& view) {
     Vec3 u = Vec3::UnitX() - plane.normal * plane.normal.x();
     if (u.norm() < 0.5) u = Vec3::UnitY() - plane.normal * plane.normal.y();
     u.normalize();
     const Vec3 v = plane.normal.cross(u);
-    const double period = 2.0 * tile;
+    const bool repeats = look.style == LookStyle::kChecker || look.style == LookStyle::kGrid;
+    const double period = repeats ? 2.0 * look.tile_m : std::numeric_limits<double>::infinity();
     put(record, 6, view_direction(view, u), std::fmod(view.eye().dot(u), period));
     put(record, 7, view_direction(view, v), std::fmod(view.eye().dot(v), period));
 }
@@ -44,31 +61,39 @@ Record plane_record(const PlaneShape& plane, const Look& look, const View& view)
     Record record{};
     put(record, 0, view_direction(view, plane.normal),
         plane.offset_m - plane.normal.dot(view.eye()));
-    put_pattern(record, plane, look.tile_m, view);
+    put(record, 1, Vec3(look.reflection, 0, 0), 0);
+    put_pattern(record, plane, look, view);
     return record;
 }
 
-Record box_record(const BoxShape& box, const View& view) {
+Record box_record(const BoxShape& box, const Look& look, const View& view) {
     Record record{};
     put(record, 0, view_point(view, box.center), 0.5 * box.size.norm());
     const Mat3 world_from_box = box.orientation.toRotationMatrix();
     for (int axis = 0; axis < 3; ++axis)
         put(record, 1 + axis, view_direction(view, world_from_box.col(axis)), 0.5 * box.size[axis]);
+    put(record, 6, Vec3(look.reflection, 0, 0), 0);
+    put(record, 7, view_direction(view, top_of(box).normal), 0);
     return record;
 }
 
 /// Records of one kind of shape, in the scene's order; returns how many.
 template <class Shape, class Make>
-int append(const Scene& scene, std::vector<float>& out, const Make& make) {
+int append(const Scene& scene, SurfaceTable& table, const Make& make) {
     int count = 0;
     for (const Surface& surface : scene.surfaces) {
         const Shape* shape = std::get_if<Shape>(&surface.shape);
         if (shape == nullptr) continue;
         const Look& look = scene.looks.at(static_cast<std::size_t>(surface.look));
         Record record{};
+        // Also of what this view does not show: programs stay the same as the camera moves.
+        constexpr bool kFlat = std::is_same_v<Shape, PlaneShape> || std::is_same_v<Shape, BoxShape>;
+        table.reflection |= kFlat && look.reflection > 0;
         if (!make(*shape, look, record)) continue;
         put_look(record, look);
-        out.insert(out.end(), record.begin(), record.end());
+        table.wood |= look.style == LookStyle::kWood;
+        table.court |= look.style == LookStyle::kCourt;
+        table.vec4s.insert(table.vec4s.end(), record.begin(), record.end());
         ++count;
     }
     return count;
@@ -84,26 +109,37 @@ bool seen_from_front(const PlaneShape& plane, const View& view) {
     return plane.normal.dot(view.eye()) > plane.offset_m;
 }
 
+PlaneShape top_of(const BoxShape& box) {
+    const Mat3 axes = box.orientation.toRotationMatrix();
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(axes(2, i)) > std::abs(axes(2, axis)) + 1e-9) axis = i;
+    PlaneShape top;
+    top.normal = axes.col(axis) * (axes(2, axis) < 0 ? -1.0 : 1.0);
+    top.offset_m = top.normal.dot(box.center) + 0.5 * box.size[axis];
+    return top;
+}
+
 SurfaceTable make_surface_table(const Scene& scene, const View& view) {
     SurfaceTable table;
     table.planes = append<PlaneShape>(
-        scene, table.vec4s, [&](const PlaneShape& plane, const Look& look, Record& record) {
+        scene, table, [&](const PlaneShape& plane, const Look& look, Record& record) {
             if (!seen_from_front(plane, view)) return false;
             record = plane_record(plane, look, view);
             return true;
         });
     table.boxes =
-        append<BoxShape>(scene, table.vec4s, [&](const BoxShape& box, const Look&, Record& record) {
-            record = box_record(box, view);
+        append<BoxShape>(scene, table, [&](const BoxShape& box, const Look& look, Record& record) {
+            record = box_record(box, look, view);
             return true;
         });
     table.spheres = append<SphereShape>(
-        scene, table.vec4s, [&](const SphereShape& sphere, const Look&, Record& record) {
+        scene, table, [&](const SphereShape& sphere, const Look&, Record& record) {
             put(record, 0, view_point(view, sphere.center), sphere.radius);
             return true;
         });
     table.capsules = append<CapsuleShape>(
-        scene, table.vec4s, [&](const CapsuleShape& capsule, const Look&, Record& record) {
+        scene, table, [&](const CapsuleShape& capsule, const Look&, Record& record) {
             put(record, 0, view_point(view, capsule.from), capsule.radius);
             put(record, 1, view_direction(view, capsule.to - capsule.from), 0);
             return true;

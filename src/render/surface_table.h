@@ -13,8 +13,12 @@ namespace carom {
 ///   box      0: centre, radius around it   1-3: rows of box-from-view, half edge
 ///   sphere   0: centre, radius
 ///   capsule  0: one end, radius            1: from that end to the other
-///   all      4: colour, style (0 plain, 1 checker, 2 grid)   5: second colour, tile [m]
-///   plane    6, 7: pattern axes u and v, coordinate of the eye along them (modulo two tiles)
+///   all      4: colour, pattern (0 none, 1 checker, 2 grid, 3 wood, 4 court)
+///            5: second colour, tile [m]
+///   plane    1: x reflection
+///            6, 7: pattern axes u and v, coordinate of the eye along them (modulo two tiles where
+///            the pattern repeats)
+///   box      6: x reflection of its top   7: the top's normal
 /// A plane that the camera sees from behind is left out: it is a wall cut away for the view.
 constexpr int kSurfaceVec4s = 8;
 
@@ -24,10 +28,14 @@ struct SurfaceTable {
     int boxes = 0;
     int spheres = 0;
     int capsules = 0;
+    bool wood = false, court = false, reflection = false;  ///< some surface has it
     int count() const { return planes + boxes + spheres + capsules; }
     /// A body, which balls can pass behind; also two planes, where balls may stand behind one.
     bool can_occlude() const { return boxes + spheres + capsules > 0 || planes > 1; }
 };
+
+/// The plane of the box's uppermost face.
+PlaneShape top_of(const BoxShape& box);
 
 SurfaceTable make_surface_table(const Scene& scene, const View& view);
 

@@ -49,6 +49,7 @@ void build_balls(Build& build);
 void build_overlay(Build& build);
 void build_camera(Build& build);
 void build_test(Build& build);
+void build_against(Build& build);
 void check_names(Build& build);     // unique over balls and surfaces
 void check_overlaps(Build& build);  // at the start
 void warn_of_half_friction(Build& build);

@@ -30,7 +30,8 @@ void build_looks(Build& build) {
         if (const auto color = fields.maybe_word("color")) look.color = parse_color(*color);
         if (const auto color = fields.maybe_word("second_color"))
             look.second_color = parse_color(*color);
-        look.tile_m = fields.number("tile");
+        look.tile_m = fields.maybe_number("tile").value_or(look.tile_m);
+        look.reflection = fields.number("reflection");
         build.look_index.emplace(node.key, add_look(build, std::move(look)));
     }
 }

@@ -150,6 +150,7 @@ void build_film(Build& build) {
                                        film.width_px, film.height_px, size.prod() / 1e6));
     film.fps = read_frame_rate(fields);
     film.start = fields.number("start");
+    film.shutter_deg = fields.number("shutter_deg");
     read_speed(build, fields);
     if (const Node* stills = fields.find("stills"))
         for (const Node& still : stills->children) film.stills.push_back(node_number(still));
@@ -160,6 +161,8 @@ void build_film(Build& build) {
 
 void build_setup(Build& build) {
     build.scene.title = build.top().maybe_word("title").value_or("");
+    const bool transparent = build.top().word("background") == "transparent";
+    build.scene.background = transparent ? Background::kTransparent : Background::kSky;
     build_simulation(build);
     build_film(build);
 }

@@ -42,8 +42,9 @@ enum class Section {
     kPeaks,
     kVelocity,
     kPlot,
+    kAgainst,
 };
-inline constexpr int kSectionCount = static_cast<int>(Section::kPlot) + 1;
+inline constexpr int kSectionCount = static_cast<int>(Section::kAgainst) + 1;
 
 /// What a value may look like; a key may have several.
 using Forms = unsigned;
@@ -63,6 +64,7 @@ inline constexpr Forms kReferences = 1U << 11U;  ///< a list of `count` names of
 inline constexpr Forms kMap = 1U << 12U;         ///< a mapping of section `child`
 inline constexpr Forms kNamedMaps = 1U << 13U;   ///< a mapping from new names to sections `child`
 inline constexpr Forms kMaps = 1U << 14U;        ///< a list of sections `child`
+inline constexpr Forms kTexts = 1U << 15U;       ///< a list of texts
 }  // namespace form
 
 enum class NameKind { kNone, kMaterial, kLook, kPreset };
@@ -168,6 +170,7 @@ std::vector<KeySpec> setup_keys();
 std::vector<KeySpec> overlay_keys();
 std::vector<KeySpec> surface_keys();
 std::vector<KeySpec> ball_keys();
+std::vector<KeySpec> against_keys();
 std::vector<Rule> key_rules();
 std::vector<SectionDoc> section_docs();
 

@@ -20,6 +20,7 @@ std::vector<Rule> key_rules() {
         {kCamera, Rule::Kind::kAtMostOne, {"focal_mm", "orthographic"}},
         {kBall, Rule::Kind::kAtMostOne, {"position", "drop_height"}},
         {kBall, Rule::Kind::kAtMostOne, {"position", "at"}},
+        {kAgainst, Rule::Kind::kAtLeastOne, {"scene", "set"}},
     };
 }
 
@@ -75,6 +76,9 @@ std::vector<SectionDoc> section_docs() {
          "The balls' velocities at the picture's instant, from their centres."},
         {kPlot, "plot", "overlay.plot",
          "Height of the balls' lowest points over time, up to the picture's instant."},
+        {kAgainst, "against", "against",
+         "A second run that films, stills and goldens show with the first. Balls of the same name "
+         "belong together."},
     };
 }
 

@@ -331,6 +331,15 @@ std::vector<KeySpec> setup_keys() {
          .fallback_doc = "`[]`",
          .doc = "Instants of the motion that are worth a picture.",
          .example = "[0.5, 1.2]"},
+        {.section = kFilm,
+         .key = "shutter_deg",
+         .forms = kNumber,
+         .range = between(0, 360),
+         .unit = "degrees",
+         .fallback = 0.0,
+         .doc = "Motion blur: a picture is exposed for shutter_deg / 360 of the time between two "
+                "frames, half of it before its instant and half after; 0 for none.",
+         .example = "180"},
 
         {.section = kSpeedKey,
          .key = "time",

@@ -80,7 +80,7 @@ std::vector<KeySpec> surface_keys() {
          .key = "style",
          .forms = kWord,
          .words = {"plain", "striped", "basketball", "volleyball", "football", "tennis",
-                   "table_tennis", "checker", "grid"},
+                   "table_tennis", "checker", "grid", "wood", "court"},
          .fallback = "plain",
          .doc = "Markings: one colour, stripes, a sport ball's seams or panels, or a pattern for "
                 "surfaces.",
@@ -102,9 +102,17 @@ std::vector<KeySpec> surface_keys() {
          .forms = kNumber,
          .range = kLength,
          .unit = "m",
-         .fallback = 0.5,
-         .doc = "Edge of a square of `checker` and `grid`.",
+         .fallback_doc = "0.5; wood 0.12; court 0.07",
+         .doc = "Edge of a square of `checker` and `grid`, width of a plank of `wood` and `court`.",
          .example = "0.25"},
+        {.section = kLook,
+         .key = "reflection",
+         .forms = kNumber,
+         .range = between(0, 1),
+         .fallback = 0.0,
+         .doc = "How clearly planes and the tops of boxes mirror balls, bodies and sky: 1 as a "
+                "polished floor, more at grazing angles.",
+         .example = "0.4"},
 
         {.section = kSurface,
          .key = "name",

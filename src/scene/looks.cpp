@@ -16,9 +16,10 @@ struct StyleRow {
     const char* word;
     const char* color;
     const char* second_color;
+    double tile_m = 0.5;
 };
 
-constexpr std::array<StyleRow, 9> kStyles = {{
+constexpr std::array<StyleRow, 11> kStyles = {{
     {LookStyle::kPlain, "plain", "#a8adb4", "#6f757d"},
     {LookStyle::kStriped, "striped", "#c8102e", "#ffffff"},
     {LookStyle::kBasketball, "basketball", "#cf6526", "#1b1614"},
@@ -28,6 +29,8 @@ constexpr std::array<StyleRow, 9> kStyles = {{
     {LookStyle::kTableTennis, "table_tennis", "#fbfbf8", "#c62f3b"},
     {LookStyle::kChecker, "checker", "#eae7e0", "#d6d2c8"},
     {LookStyle::kGrid, "grid", "#eceae4", "#b4b0a6"},
+    {LookStyle::kWood, "wood", "#c39a6b", "#8a6440", 0.12},
+    {LookStyle::kCourt, "court", "#d9b27c", "#f7f5f0", 0.07},
 }};
 
 /// Okabe and Ito, Color Universal Design (2008): told apart with any common colour blindness.
@@ -65,6 +68,7 @@ Look style_look(LookStyle style) {
         look.style = style;
         look.color = parse_color(row.color);
         look.second_color = parse_color(row.second_color);
+        look.tile_m = row.tile_m;
         return look;
     }
     throw Bug("a style of looks has no colours");

@@ -153,7 +153,7 @@ Node* Setter::entry_of(const Place& place, const Step& step, bool last) {
 
 /// A list of numbers that the file leaves out starts from its default.
 bool Setter::open_value(Place& place, Node& node) {
-    const Forms lists = form::kNumbers | form::kIntegers | form::kReferences;
+    const Forms lists = form::kNumbers | form::kIntegers | form::kReferences | form::kTexts;
     if ((place.spec->forms & lists) == 0) {
         fail(fmt::format("'{}' is a single value; nothing stands below it", place.spec->key));
         return false;

@@ -36,6 +36,7 @@ void build_scene(Build& build) {
     build_overlay(build);
     build_camera(build);
     build_test(build);
+    build_against(build);
     check_names(build);
     check_overlaps(build);
     warn_of_half_friction(build);
@@ -75,8 +76,8 @@ SceneResult read_scene(std::string_view text, const std::string& file,
     return result;
 }
 
-SceneResult read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
-    if (path == "-") return read_scene(read_bounded(std::cin), "<stdin>", overrides);
+std::string read_scene_text(const std::string& path) {
+    if (path == "-") return read_bounded(std::cin);
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     std::string text;
@@ -84,7 +85,11 @@ SceneResult read_scene_file(const std::string& path, const std::vector<Override>
     if (!stream.is_open() || stream.bad() || (stream.fail() && !stream.eof()))
         throw Failure(FailureKind::kInput, fmt::format("cannot read the scene file '{}': {}", path,
                                                        std::strerror(errno)));
-    return read_scene(text, path, overrides);
+    return text;
+}
+
+SceneResult read_scene_file(const std::string& path, const std::vector<Override>& overrides) {
+    return read_scene(read_scene_text(path), path == "-" ? "<stdin>" : path, overrides);
 }
 
 Override parse_override(const std::string& argument) {

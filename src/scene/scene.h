@@ -54,14 +54,17 @@ enum class LookStyle {
     kTableTennis,
     kChecker,
     kGrid,
+    kWood,
+    kCourt,
 };
 
 struct Look {
     std::string name;  ///< "" for a default
     LookStyle style = LookStyle::kPlain;
-    Color color;          ///< the main colour
-    Color second_color;   ///< stripes, seams, the checker's other squares, lines
-    double tile_m = 0.5;  ///< edge of a square of checker and grid, m
+    Color color;            ///< the main colour
+    Color second_color;     ///< stripes, seams, the checker's other squares, lines
+    double tile_m = 0.5;    ///< edge of a square, width of a plank, m
+    double reflection = 0;  ///< of planes and boxes' tops: 0 dull ... 1 as a pane of glass
 };
 
 struct PlaneShape {
@@ -165,6 +168,21 @@ struct Film {
     double speed = 1;            ///< seconds of motion per second of film; at the end of a ramp
     std::vector<SpeedKey> ramp;  ///< by time, increasing, linear between; empty: `speed` throughout
     std::vector<double> stills;  ///< s of the motion
+    /// Part of a frame's film time, in degrees of 360, over which a picture is exposed; 0: none.
+    double shutter_deg = 0;
+};
+
+/// What lies behind the balls: the sky over the surfaces, or nothing. See docs/scene.md.
+enum class Background { kSky, kTransparent };
+
+/// How a second run is shown: in the same picture, translucent, or beside the first.
+enum class AgainstView { kGhost, kSide };
+
+/// A second run that is filmed with the first: another scene, or this one with values set.
+struct Against {
+    std::string scene;             ///< path as the file says it; "" for the same scene
+    std::vector<std::string> set;  ///< PATH=VALUE
+    AgainstView view = AgainstView::kGhost;
 };
 
 enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
@@ -242,6 +260,8 @@ struct Scene {
     Film film;
     Overlay overlay;
     std::optional<ReboundTest> test;
+    Background background = Background::kSky;
+    std::optional<Against> against;
 };
 
 }  // namespace carom

@@ -130,6 +130,7 @@ class SchemaWriter {
         if (takes(form::kIntegers))
             all.push_back(list_schema(spec, number_schema(spec, "integer")));
         if (takes(form::kReferences)) all.push_back(list_schema(spec, reference_schema(spec)));
+        if (takes(form::kTexts)) all.push_back(list_schema(spec, {{"type", "string"}}));
         if (takes(form::kMap)) all.push_back(reference(spec.child));
         if (takes(form::kNamedMaps))
             all.push_back({{"type", "object"},

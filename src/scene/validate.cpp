@@ -153,13 +153,15 @@ bool Validator::scalar(Node& node, const KeySpec& spec) {
 
 bool Validator::list(Node& node, const KeySpec& spec) {
     const bool numbers = (spec.forms & (form::kNumbers | form::kIntegers)) != 0;
-    if (!numbers && (spec.forms & form::kReferences) == 0) return wrong_form(node, spec);
+    if (!numbers && (spec.forms & (form::kReferences | form::kTexts)) == 0)
+        return wrong_form(node, spec);
     if (spec.count != 0 && node.children.size() != static_cast<std::size_t>(spec.count))
         return wrong_form(node, spec);
     KeySpec entry = spec;
     entry.forms = form::kNumber;
     if ((spec.forms & form::kIntegers) != 0) entry.forms = form::kInteger;
-    if (!numbers) entry.forms = form::kReference;
+    if ((spec.forms & form::kReferences) != 0) entry.forms = form::kReference;
+    if ((spec.forms & form::kTexts) != 0) entry.forms = form::kText;
     for (Node& child : node.children) {
         const bool right =
             child.kind == Node::Kind::kScalar ? scalar(child, entry) : wrong_form(child, entry);
@@ -299,6 +301,7 @@ std::string expected_text(const KeySpec& spec) {
     if (takes(form::kIntegers))
         texts.push_back(fmt::format("a list{} whole numbers{}", count, unit));
     if (takes(form::kReferences)) texts.push_back(fmt::format("a list{} names", count));
+    if (takes(form::kTexts)) texts.push_back("a list of texts");
     if (takes(form::kMap) || takes(form::kNamedMaps)) texts.push_back("a mapping");
     if (takes(form::kMaps)) texts.push_back("a list of mappings");
     return fmt::format("{}", fmt::join(texts, " or "));

@@ -70,12 +70,16 @@ TEST(CompareImages, PsnrOfOnePixel) {
     EXPECT_EQ(d.largest, 20);
 }
 
-TEST(CompareImages, SeesAlphaThoughItHasNoLuma) {
-    const ImageDifference d =
-        compare_images(filled(2, 2, 9, 9, 9, 255), filled(2, 2, 9, 9, 9, 252));
+// Over black pictures that differ in alpha alone are the same, over white they are not.
+TEST(CompareImages, SeesAlpha) {
+    const Image a = filled(2, 2, 9, 9, 9, 255), b = filled(2, 2, 9, 9, 9, 252);
+    const ImageDifference d = compare_images(a, b);
     EXPECT_EQ(d.largest, 3);
     EXPECT_EQ(d.differing, 4);
-    EXPECT_TRUE(std::isinf(d.psnr_luma_db));
+    EXPECT_NEAR(20 * std::log10(255.0 / 3), d.psnr_luma_db, 1e-9);
+    const Image shown = difference_image(a, b);
+    EXPECT_GT(shown.row(0)[0], 40);
+    EXPECT_EQ(255, shown.row(0)[3]);
 }
 
 TEST(ImageTolerance, HoldsAtItsLimitsAndNotBeyond) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge_quality.h"
 #include "hand_made_scene.h"
 #include "render/balls_in_view.h"
 
@@ -70,29 +71,12 @@ INSTANTIATE_TEST_SUITE_P(Places, SilhouetteArea,
                              return name;
                          });
 
-/// Against the same picture drawn eight times as large: the bounds of a good edge.
-void expect_like_reference(const HandMadeScene& scene, double within_24, int largest,
-                           double psnr_db) {
-    constexpr int kWidth = 320, kHeight = 180, kFactor = 8;
-    const Image image = scene.paint(kWidth, kHeight);
-    const Image reference =
-        testing::averaged(scene.paint(kWidth * kFactor, kHeight * kFactor), kFactor);
-    const ImageDifference difference = compare_images(image, reference);
-    int beyond = 0;
-    for (std::size_t i = 0; i < image.bgra.size(); i += 4) {
-        int worst = 0;
-        for (std::size_t c = i; c < i + 3; ++c)
-            worst = std::max(worst, std::abs(int{image.bgra[c]} - int{reference.bgra[c]}));
-        beyond += worst > 24 ? 1 : 0;
-    }
-    const double part = static_cast<double>(beyond) / (kWidth * kHeight);
-    fmt::print(
-        "largest {} (at most {}), beyond 24: {:.4f} % (at most {:.4f}), PSNR {:.2f} dB (at "
-        "least {})\n",
-        difference.largest, largest, 100 * part, 100 * within_24, difference.psnr_luma_db, psnr_db);
-    EXPECT_LE(difference.largest, largest);
-    EXPECT_LE(part, within_24);
-    EXPECT_GE(difference.psnr_luma_db, psnr_db);
+/// Against the same picture drawn eight times as large.
+void expect_like_reference(const HandMadeScene& scene) {
+    constexpr int kWidth = 320, kHeight = 180;
+    testing::expect_good(testing::edge_errors(scene.paint(kWidth, kHeight),
+                                              testing::reference_of(scene, kWidth, kHeight)),
+                         "picture");
 }
 
 HandMadeScene floor_with_balls(LookStyle style, const Color& color, const Color& second) {
@@ -112,39 +96,36 @@ HandMadeScene floor_with_balls(LookStyle style, const Color& color, const Color&
 }
 
 TEST(EdgeQuality, PlainDarkBallsMatchSixtyFourSamples) {
-    expect_like_reference(floor_with_balls(LookStyle::kPlain, {0.1, 0.1, 0.2}, {}), 1e-4, 64, 40);
+    expect_like_reference(floor_with_balls(LookStyle::kPlain, {0.1, 0.1, 0.2}, {}));
 }
 
 TEST(EdgeQuality, PlainLightBallsMatchSixtyFourSamples) {
-    expect_like_reference(floor_with_balls(LookStyle::kPlain, {0.95, 0.3, 0.2}, {}), 1e-4, 64, 40);
+    expect_like_reference(floor_with_balls(LookStyle::kPlain, {0.95, 0.3, 0.2}, {}));
 }
 
 struct MarkedBall {
     const char* name;
     LookStyle style;
     Color color, second;
-    double within_24;  ///< part of the picture that may be off by more than 24
 };
 
 class MarkedEdgeQuality : public ::testing::TestWithParam<MarkedBall> {};
 
 TEST_P(MarkedEdgeQuality, MatchesSixtyFourSamples) {
     const MarkedBall& ball = GetParam();
-    expect_like_reference(floor_with_balls(ball.style, ball.color, ball.second), ball.within_24, 64,
-                          40);
+    expect_like_reference(floor_with_balls(ball.style, ball.color, ball.second));
 }
 
 const Color kWhite{0.95, 0.95, 0.93}, kDark{0.06, 0.06, 0.06}, kOrange{0.85, 0.4, 0.17};
 
 INSTANTIATE_TEST_SUITE_P(
     Styles, MarkedEdgeQuality,
-    ::testing::Values(
-        MarkedBall{"striped", LookStyle::kStriped, {0.8, 0.1, 0.15}, kWhite, 1e-4},
-        MarkedBall{"basketball", LookStyle::kBasketball, kOrange, kDark, 1e-4},
-        MarkedBall{"volleyball", LookStyle::kVolleyball, kWhite, {0.14, 0.31, 0.61}, 1e-4},
-        MarkedBall{"football", LookStyle::kFootball, kWhite, kDark, 1e-4},
-        MarkedBall{"tennis", LookStyle::kTennis, {0.8, 0.88, 0.2}, kWhite, 1e-4},
-        MarkedBall{"table_tennis", LookStyle::kTableTennis, kWhite, {0.8, 0.1, 0.1}, 1e-4}),
+    ::testing::Values(MarkedBall{"striped", LookStyle::kStriped, {0.8, 0.1, 0.15}, kWhite},
+                      MarkedBall{"basketball", LookStyle::kBasketball, kOrange, kDark},
+                      MarkedBall{"volleyball", LookStyle::kVolleyball, kWhite, {0.14, 0.31, 0.61}},
+                      MarkedBall{"football", LookStyle::kFootball, kWhite, kDark},
+                      MarkedBall{"tennis", LookStyle::kTennis, {0.8, 0.88, 0.2}, kWhite},
+                      MarkedBall{"table_tennis", LookStyle::kTableTennis, kWhite, {0.8, 0.1, 0.1}}),
     [](const auto& test) { return test.param.name; });
 
 TEST(EdgeQuality, BodiesMatchSixtyFourSamples) {
@@ -159,7 +140,7 @@ TEST(EdgeQuality, BodiesMatchSixtyFourSamples) {
     scene.surface(SphereShape{{1.2, 0.1, 0}, 0.3}, body);
     scene.surface(CapsuleShape{{-1.2, -0.5, 0.05}, {0.2, -0.9, 0.05}, 0.05}, body);
     scene.ball({0.3, 0.9, 0.35}, 0.3, scene.look(LookStyle::kPlain, {0.8, 0.2, 0.1}));
-    expect_like_reference(scene, 1e-4, 64, 40);
+    expect_like_reference(scene);
 }
 
 TEST(ProjectedSphere, HasNoEllipseAroundTheEye) {

@@ -115,9 +115,12 @@ TEST(Errors, MaterialsPairsAndLooks) {
          "text "
          "'#12345g'"},
         {"looks: {a: {tile: 0}}", "2:19: error: 'tile' must be above 0 m, not 0"},
+        {"looks: {a: {reflection: 1.5}}",
+         "2:25: error: 'reflection' must be between 0 and 1, not 1.5"},
         {"looks: {a: {style: stripes}}",
          "2:20: error: 'style' must be one of plain, striped, basketball, volleyball, football, "
-         "tennis, table_tennis, checker, grid, not the text 'stripes'; did you mean 'striped'?"},
+         "tennis, table_tennis, checker, grid, wood, court, not the text 'stripes'; did you mean "
+         "'striped'?"},
     });
 }
 
@@ -305,7 +308,7 @@ TEST(Errors, ColumnsCountCharacters) {
     EXPECT_EQ(
         errors_of("carom: 1\ntitle: \"\xC3\xA9\xE2\x82\xAC\"\nfilm: {\"\xC3\xA9\": 1, fps: 0}"),
         "t.yaml:3:8: error: unknown key '\xC3\xA9'; known here: size, fps, start, speed, "
-        "stills\n"
+        "stills, shutter_deg\n"
         "t.yaml:3:21: error: 'fps' must be above 0 1/s, not 0\n");
 }
 

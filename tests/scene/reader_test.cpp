@@ -323,6 +323,18 @@ TEST(Reader, DefaultsFillWhatBallAndPresetLeaveOut) {
     EXPECT_EQ(scene.balls[3].position, Vec3(3, 0, 9));
 }
 
+TEST(Reader, ATilesWidthGoesByTheStyleUnlessItIsSaid) {
+    const Scene scene = scene_of(
+        "carom: 1\nlooks: {a: {style: checker}, b: {style: wood}, c: {style: court},"
+        " d: {style: wood, tile: 0.3, reflection: 0.25}}");
+    EXPECT_EQ(scene.looks.at(0).tile_m, 0.5);
+    EXPECT_EQ(scene.looks.at(1).tile_m, 0.12);
+    EXPECT_EQ(scene.looks.at(2).tile_m, 0.07);
+    EXPECT_EQ(scene.looks.at(3).tile_m, 0.3);
+    EXPECT_EQ(scene.looks.at(0).reflection, 0);
+    EXPECT_EQ(scene.looks.at(3).reflection, 0.25);
+}
+
 TEST(Reader, PlainBallsCycleThroughColours) {
     std::string text = "carom: 1\nballs:\n";
     for (int i = 0; i < 9; ++i)

@@ -10,6 +10,12 @@ uniform usampler2D u_facts;  // static_picture.h
 uniform sampler2D u_front;
 #endif
 
+#ifdef MIRRORED
+uniform sampler2D u_mirror;  // static_picture.h
+uniform vec3 u_mirror_normal;
+uniform float u_mirror_offset;
+#endif
+
 flat in vec4 v_ray;      // pixel of d_ref, k, radius [m]
 flat in vec3 v_offset;
 flat in vec4 v_row_x;    // rows of ball-from-view; w: part of the key light that reaches the ball
@@ -41,9 +47,39 @@ float coverage(float edge, float size, vec2 n) {
     return clamp(covered, 0.0, 1.0) * min(1.0, 1.5707963 * size);
 }
 
+#ifdef GHOST
+// A translucent ball within an outline. The list of casters holds the solid balls that may hide it.
+uniform vec3 u_ghost;     // of the outline
+uniform float u_outline;  // its width, pixels
+
+const float kFill = 0.34;  // opacity within
+const float kRing = 0.92;  // and of the outline
+
+// Part of the ghost at this pixel that no solid ball hides; u and d as above, `pixel` a pixel's
+// width there, all in radii. Along the ray, counted from the point nearest to the ghost's centre,
+// the ghost is met at -sqrt(1 - |u|^2), and a ball at rel with radius r at
+// -(u - rel).d - sqrt(r^2 - |u - rel|^2 + ((u - rel).d)^2).
+float seen_part(vec3 u, vec3 d, float pixel) {
+    float front = -sqrt(max(1.0 - dot(u, u), 0.0));
+    float seen = 1.0;
+    for (int i = 0; i < v_casters.y; ++i) {
+        vec4 hider = texelFetch(u_casters, v_casters.x + i);
+        vec3 q = u - hider.xyz;
+        float along = dot(q, d), across = length(q - d * along);
+        float covered = clamp((hider.w - across) / pixel + 0.5, 0.0, 1.0);
+        float depth = -along - sqrt(max(hider.w * hider.w - across * across, 0.0));
+        // Where the surfaces meet, the solid one is in front; soft by a few pixels.
+        float soft = 2.0 * pixel;
+        seen *= 1.0 - covered * smoothstep(-2.0 * soft, 0.0, front - depth);
+    }
+    return seen;
+}
+#endif
+
 // Light on the point with normal n (view space) of a body of the given colour.
 vec3 lit(vec3 body, vec3 n, vec3 d_unit, float blur) {
     float key = v_row_x.w, open = 1.0;
+#ifndef GHOST
     for (int i = 0; i < v_casters.y; ++i) {
         vec4 caster = texelFetch(u_casters, v_casters.x + i);
         vec3 rel = caster.xyz - n;
@@ -54,6 +90,7 @@ vec3 lit(vec3 body, vec3 n, vec3 d_unit, float blur) {
         open *= 1.0 - 0.8 * max(dot(n, rel), 0.0) * inversesqrt(away2) *
                           min(caster.w * caster.w / away2, 1.0);
     }
+#endif
     // The nearest surface takes the light of its half of the world away, most where it touches.
     float toward = 0.5 + 0.5 * dot(n, v_contact.xyz);
     open *= 1.0 - 0.72 * v_contact.w * toward * toward;
@@ -97,6 +134,13 @@ void main() {
     float alpha = coverage(edge, size, u.xy / rho_picture);
     if (alpha <= 0.0) discard;
 
+#ifdef GHOST
+    float seen = seen_part(u, normalize(d), scale);
+    if (seen <= 0.0) discard;
+    // The outline lies within the ball, and leaves most of a small one open.
+    float inner = coverage(edge - min(u_outline, 0.4 * size), size, u.xy / rho_picture);
+#endif
+
     // One point inside; at the outline four, since there colours change fast within a pixel.
     mat3 view_from_ball = mat3(v_row_x.xyz, v_row_y, v_row_z);
     int points = edge < 1.0 ? 4 : 1;
@@ -129,14 +173,29 @@ void main() {
     }
     color /= weight;
 
+#ifdef MIRRORED
+    // From the mirror on, the ray goes as far as to what hides the ball, or not.
+    float to_mirror = (u_mirror_offset - dot(u_mirror_normal, ray_start(pixel))) /
+                      dot(u_mirror_normal, d);
+    if (depth - to_mirror > texelFetch(u_mirror, ivec2(pixel), 0).a) discard;
+#endif
 #ifdef OCCLUDED
     uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
     float front_part = float(facts.z >> 20) / 1023.0;
     if (depth > uintBitsToFloat(facts.y)) discard;
     if (depth > uintBitsToFloat(facts.x)) {
         // Within an edge of a body before the ball: the body keeps its share of the pixel.
+#ifdef GHOST
+        seen *= 1.0 - front_part;
+#else
         color = mix(color, texelFetch(u_front, ivec2(gl_FragCoord.xy), 0).rgb, front_part);
+#endif
     }
 #endif
+#ifdef GHOST
+    float fill = kFill * inner, ring = kRing * (alpha - inner);
+    out_color = seen * vec4(color * fill + u_ghost * ring, fill + ring);
+#else
     out_color = vec4(color * alpha, alpha);
+#endif
 }

@@ -52,5 +52,5 @@ void main() {
         // Nothing is shaded in the sky: there both parts are 0.
         factor -= part * (direct * (1.0 - key) + ambient * (1.0 - open));
     }
-    out_factor = vec4(vec3(factor), 1.0);
+    out_factor = vec4(vec3(factor), 1.0 - factor);
 }

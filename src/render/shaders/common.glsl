@@ -38,6 +38,14 @@ vec3 background(vec3 d) {
                     : mix(kHorizon, kNadir, smoothstep(0.0, 0.6, -up));
 }
 
+// Part of its light that a surface mirrors, seen at the angle whose cosine is given: after Schlick,
+// An inexpensive BRDF model (1994), gentler near the grazing angle.
+float mirrored_share(float strength, float cosine) {
+    float away = 1.0 - clamp(cosine, 0.0, 1.0);
+    float away2 = away * away;
+    return strength * (0.06 + 0.84 * away2 * away2);
+}
+
 // Part of the key light that a ball hides from a point: the ball's centre lies `along` towards the
 // light and `across` from the line to it; the penumbra widens with the distance. `blur` is a pixel's
 // width there, so that the shadow of a far ball does not alias.

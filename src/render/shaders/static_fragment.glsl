@@ -8,38 +8,7 @@ out vec4 out_color;
 out vec4 out_front;   // colour of the nearer of two layers alone, where an edge passes
 out uvec4 out_facts;  // depth of the nearer layer, of the farther one; fractions; normal
 
-// Integral of a checker of period 2 over a box of width w around x, -1 ... 1.
-float filtered_wave(float x, float w) {
-    vec2 ends = fract(vec2(x - 0.5 * w, x + 0.5 * w) * 0.5) - 0.5;
-    return 2.0 * (abs(ends.x) - abs(ends.y)) / w;
-}
-
-// Part of a box of width w around x that lies on lines of the given width around the integers.
-float filtered_lines(float x, float w, float line) {
-    vec2 ends = vec2(x - 0.5 * w, x + 0.5 * w) + 0.5 * line;
-    vec2 covered = floor(ends) * line + min(fract(ends), line);
-    return (covered.y - covered.x) / w;
-}
-
-// The surface's colour at the pattern coordinate uv [m], seen through a pixel of the given extent.
-vec3 pattern(int item, vec2 uv, vec2 extent) {
-    vec4 first = surface(item, 4), second = surface(item, 5);
-    vec2 x = uv / second.w, w = max(extent / second.w, 1e-5);
-    // Beyond a few squares a pixel, a box filter still leaves moire: melt into the mean.
-    float melt = smoothstep(0.6, 2.0, max(w.x, w.y));
-    float part = 0.0;
-    if (first.w == 1.0) {
-        part = 0.5 - 0.5 * filtered_wave(x.x, w.x) * filtered_wave(x.y, w.y);
-        part = mix(part, 0.5, melt);
-    } else if (first.w == 2.0) {
-        const float kLine = 0.024;
-        float off = (1.0 - filtered_lines(x.x, w.x, kLine)) * (1.0 - filtered_lines(x.y, w.y, kLine));
-        part = mix(1.0 - off, 1.0 - (1.0 - kLine) * (1.0 - kLine), melt);
-    }
-    return mix(first.rgb, second.rgb, part);
-}
-
-// Pattern coordinates and their extent: how far the point on the face moves from pixel to pixel.
+// Of the body, with its pattern.
 vec3 albedo(Hit hit, vec3 d, float part) {
     vec3 u = vec3(0.0), v = vec3(0.0);
     vec2 origin = vec2(0.0);
@@ -56,18 +25,37 @@ vec3 albedo(Hit hit, vec3 d, float part) {
         vec3 center = surface(hit.item, 0).xyz;
         u = a.xyz;
         v = b.xyz;
-        origin = vec2(a.w - dot(a.xyz, center), b.w - dot(b.xyz, center));
+        origin = -vec2(dot(a.xyz, center), dot(b.xyz, center));
+        // Squares and planks begin at an edge; a court's middle is the top's, and the sides lie far
+        // beyond its lines.
+        if (surface(hit.item, 4).w != kCourtStyle) origin += vec2(a.w, b.w);
+        else if (dot(surface(hit.item, 7).xyz, hit.n) < 0.999) origin += 100.0;
     } else {
         return surface(hit.item, 4).rgb;
     }
     float facing = min(dot(hit.n, d), -1e-6);
     vec3 dx = vec3(1, 0, 0) - d * (hit.n.x / facing);
     vec3 dy = vec3(0, 1, 0) - d * (hit.n.y / facing);
-    vec2 extent = pixel_at(hit.t) * part *
-                  vec2(length(vec2(dot(u, dx), dot(u, dy))), length(vec2(dot(v, dx), dot(v, dy))));
+    mat2 step = pixel_at(hit.t) * part * mat2(dot(u, dx), dot(v, dx), dot(u, dy), dot(v, dy));
     vec3 p = g_start + hit.t * d;
-    return pattern(hit.item, vec2(dot(u, p), dot(v, p)) + origin, extent);
+    return pattern(hit.item, vec2(dot(u, p), dot(v, p)) + origin, step);
 }
+
+#ifdef REFLECTION
+// Linear colour of what is mirrored times the part of the light that it is; how far away what is
+// mirrored lies from the mirror, in lengths of the pixel's ray (kFar for the sky).
+out vec4 out_mirror;
+
+// Part of the light from here that the surface mirrors.
+float reflected_part(Hit hit, vec3 d) {
+    bool is_box = hit.item >= u_counts.x;
+    if (hit.item < 0 || hit.item >= u_counts.x + u_counts.y) return 0.0;
+    float strength = is_box ? surface(hit.item, 6).x : surface(hit.item, 1).x;
+    // Of a box the top alone; which one that is stands beside the strength.
+    if (is_box && dot(surface(hit.item, 7).xyz, hit.n) < 0.999) return 0.0;
+    return mirrored_share(strength, -dot(hit.n, normalize(d)));
+}
+#endif
 
 // 1 in the open, less where other surfaces come close within reach of the normal; looked up at
 // `taps` of three heights, beginning with `first`.
@@ -85,7 +73,29 @@ struct Shaded {
     vec3 color;
     float direct;   // part of the colour that is key light
     float ambient;  // part that is ambient light
+#ifdef TRANSPARENT
+    float opaque;   // 1 for a body; for a plane the part of its light that bodies take from it
+#endif
 };
+
+#ifdef TRANSPARENT
+#define SHADED(color, direct, ambient, opaque) Shaded(color, direct, ambient, opaque)
+#else
+#define SHADED(color, direct, ambient, opaque) Shaded(color, direct, ambient)
+#endif
+
+const vec3 kLuma = vec3(0.2126, 0.7152, 0.0722);
+
+// How much of a plane has melted into the horizon.
+float faded(Hit hit, vec3 p) {
+#ifndef ORTHOGRAPHIC
+    if (hit.item < u_counts.x) {
+        float away = length(p) / u_fade_m;
+        return 1.0 - exp(-away * away);
+    }
+#endif
+    return 0.0;
+}
 
 // `sample_index` 0 ... 35 takes an eighth of the lamp and one height of the crevices, which differ from one
 // sample of an edge to the next; -1 takes all of them. The sample is `part` of a pixel wide.
@@ -93,11 +103,10 @@ Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
 #ifdef ORTHOGRAPHIC
     if (hit.item <= kSection) {
         int plane = kSection - hit.item;
-        vec3 mean = 0.5 * (surface(plane, 4).rgb + surface(plane, 5).rgb);
-        return Shaded(0.62 * (surface(plane, 4).w > 0.0 ? mean : surface(plane, 4).rgb), 0.0, 0.0);
+        return SHADED(0.62 * mean_color(plane), 0.0, 0.0, 0.0);
     }
 #endif
-    if (hit.item < 0) return Shaded(background(d), 0.0, 0.0);
+    if (hit.item < 0) return SHADED(background(d), 0.0, 0.0, 0.0);
     vec3 p = g_start + hit.t * d;
     vec3 body = albedo(hit, d, part);
     float facing = max(dot(hit.n, u_light), 0.0);
@@ -114,19 +123,48 @@ Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
     vec3 direct = body * kKey * (facing * visible);
     vec3 ambient = body * ambient_light(hit.n) * open;
 
-    float fade = 0.0;
-#ifndef ORTHOGRAPHIC
-    if (hit.item < u_counts.x) {
-        float away = length(p) / u_fade_m;
-        fade = 1.0 - exp(-away * away);
-    }
-#endif
+    float fade = faded(hit, p);
     vec3 color = mix(direct + ambient, background(d), fade);
-    const vec3 kLuma = vec3(0.2126, 0.7152, 0.0722);
     float whole = max(dot(color, kLuma), 1e-6);
-    return Shaded(color, (1.0 - fade) * dot(direct, kLuma) / whole,
-                  (1.0 - fade) * dot(ambient, kLuma) / whole);
+#ifdef TRANSPARENT
+    float lit = dot(body * (kKey * facing + ambient_light(hit.n)), kLuma);
+    float taken = (1.0 - fade) * (1.0 - dot(direct + ambient, kLuma) / max(lit, 1e-6));
+    float opaque = hit.item < u_counts.x ? clamp(taken, 0.0, 1.0) : 1.0;
+#endif
+    return SHADED(color, (1.0 - fade) * dot(direct, kLuma) / whole,
+                  (1.0 - fade) * dot(ambient, kLuma) / whole, opaque);
 }
+
+#ifdef REFLECTION
+// Adds what is mirrored to `s`, which was shaded without; out_mirror's value comes back. `edge`: an
+// edge of a mirrored body may pass through this pixel.
+vec4 add_mirrored(inout Shaded s, inout bool edge, Hit hit, vec3 d, float part, int sample_index) {
+    float share = reflected_part(hit, d);
+    if (share <= 0.0) return vec4(0.0, 0.0, 0.0, kFar);
+    vec3 p = g_start + hit.t * d, r = reflect(d, hit.n), seen = background(r);
+    float away = kFar;
+#ifdef SEVERAL
+    vec3 eye = g_start;
+    g_start = p + hit.n * (1e-4 * hit.t);
+    Hit other = nearest_surface(r);
+    if (other.item >= 0) {
+        seen = shade(other, r, part, sample_index).color;
+        away = other.t;
+    }
+    edge = edge || other.edge;
+    g_start = eye;
+#endif
+    // Of the colour, the horizon's part stays, and of the rest the mirrored part is exchanged.
+    float fade = faded(hit, p);
+    vec3 mirrored = share * (1.0 - fade) * seen;
+    vec3 color = s.color - share * (s.color - fade * background(d)) + mirrored;
+    float scale = (1.0 - share) * dot(s.color, kLuma) / max(dot(color, kLuma), 1e-6);
+    s.direct *= scale;
+    s.ambient *= scale;
+    s.color = color;
+    return vec4(mirrored, away);
+}
+#endif
 
 uint packed_unit(float x, int bits) {
     return uint(clamp(x, 0.0, 1.0) * float((1 << bits) - 1) + 0.5);
@@ -146,7 +184,10 @@ void main() {
     const int kProbes = 4, kSamples = 36;
     vec3 color = vec3(0.0), front = vec3(0.0), n_near = vec3(0.0), n_far = vec3(0.0);
     float direct = 0.0, ambient = 0.0, weight = 0.0, front_weight = 0.0;
-    float t_near = 0.0, t_far = 0.0, split = 0.0;
+    float t_near = 0.0, t_far = 0.0, split = 0.0, opaque = 0.0;
+#ifdef REFLECTION
+    vec4 mirror = vec4(0.0);
+#endif
     int last = 1;
     for (int i = 0; i < last; ++i) {
         vec2 at = vec2(0.0);
@@ -168,6 +209,18 @@ void main() {
         const bool whole = true;  // one plane has no edge
 #endif
         Shaded s = shade(hit, d, whole ? 1.0 : 0.25, whole ? -1 : max(fine, 0));
+#ifdef REFLECTION
+        bool edge = false;
+        vec4 m = add_mirrored(s, edge, hit, d, whole ? 1.0 : 0.25, whole ? -1 : max(fine, 0));
+#ifdef SEVERAL
+        if (whole && edge) {
+            whole = false;
+            last = 1 + kProbes + kSamples;
+        }
+#endif
+        if (i == 0) mirror.a = m.a;
+        if (whole || fine >= 0) mirror.rgb += m.rgb;
+#endif
         if (i == 0) {
             t_near = t_far = hit.t;
             n_near = n_far = hit.n;
@@ -179,6 +232,10 @@ void main() {
         }
         split = 0.5 * t_near + 0.5 * t_far;
         if (whole || fine >= 0) {
+#ifdef TRANSPARENT
+            if (hit.item < u_counts.x) s.color = vec3(0.0);  // sky and planes: only shadows
+            opaque += s.opaque;
+#endif
             color += s.color;
             direct += s.direct;
             ambient += s.ambient;
@@ -190,7 +247,14 @@ void main() {
         }
     }
     float front_part = front_weight / weight;
+#ifdef TRANSPARENT
+    out_color = vec4(color, opaque) / weight;
+#else
     out_color = vec4(color / weight, 1.0);
+#endif
+#ifdef REFLECTION
+    out_mirror = vec4(mirror.rgb / weight, mirror.a);
+#endif
     out_front = vec4(front / max(front_weight, 1.0), 1.0);
     out_facts = uvec4(floatBitsToUint(t_near), floatBitsToUint(t_far),
                       packed_unit(direct / weight, 10) | (packed_unit(ambient / weight, 10) << 10) |

@@ -10,7 +10,7 @@ const int kSection = -2;  // and below: the cut through plane kSection - item
 // An edge is sought this many pixels around a pixel's centre: half a pixel's diagonal and some.
 const float kEdgeReach = 0.8;
 
-#ifdef ORTHOGRAPHIC
+#if defined(ORTHOGRAPHIC) || defined(REFLECTION)
 vec3 g_start = vec3(0.0);  // of the ray that is followed; set before nearest_surface()
 #else
 const vec3 g_start = vec3(0.0);
@@ -211,10 +211,19 @@ float key_visibility(vec3 p, vec3 px, vec3 py, int own, int first, int samples) 
         float along = dot(rel, u_light);
         bool near = length(rel - along * u_light) < center.w + max(along, 0.0) * u_light_tan &&
                     along > -center.w && item != own;
-        int n = near ? samples : 0;
         vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
         vec3 half_edge = vec3(rx.w, ry.w, rz.w);
         vec3 ro = -vec3(dot(rx.xyz, rel), dot(ry.xyz, rel), dot(rz.xyz, rel));
+        // No ray strays further from the middle one than this: where that one passes a box which is
+        // so much larger, all do.
+        float stray = (along + center.w) * u_light_tan + 0.5 * (length(px) + length(py));
+        vec3 ld = safe_direction(vec3(dot(rx.xyz, u_light), dot(ry.xyz, u_light),
+                                      dot(rz.xyz, u_light)));
+        vec3 mid = -ro / ld, wide = (half_edge + stray) / abs(ld);
+        vec3 from_wide = mid - wide, to_wide = mid + wide;
+        near = near && max(max(from_wide.x, from_wide.y), from_wide.z) <
+                           min(min(to_wide.x, to_wide.y), to_wide.z);
+        int n = near ? samples : 0;
         float hidden = 0.0;
         float start = (float(first) + 0.5) * 2.39996323;
         vec2 spoke = vec2(cos(start), sin(start));

@@ -1,0 +1,142 @@
+#include "cli/against.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "core/failure.h"
+
+namespace carom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the second run is, from the scene's key and, before it, the command line.
+std::optional<Against> wanted_against(const Scene& scene, const AgainstOptions& options) {
+    std::optional<Against> wanted = scene.against;
+    if (wanted && !wanted->scene.empty()) {
+        // As seen from the scene's folder; standard input has none.
+        const fs::path folder = fs::path(scene.file).parent_path();
+        if (scene.file != "<stdin>") wanted->scene = (folder / wanted->scene).string();
+    }
+    if (!options.scene.empty() || !options.set.empty()) {
+        const AgainstView view = wanted ? wanted->view : AgainstView::kGhost;
+        wanted = Against{options.scene, options.set, view};
+    }
+    if (options.view.empty()) return wanted;
+    if (!wanted)
+        throw Failure(FailureKind::kInput,
+                      "--against-view: there is no other run; name it with --against or "
+                      "--against-set");
+    wanted->view = options.view == "side" ? AgainstView::kSide : AgainstView::kGhost;
+    return wanted;
+}
+
+std::vector<Override> overrides_of(const std::vector<std::string>& set) {
+    std::vector<Override> overrides;
+    for (const std::string& text : set) overrides.push_back(parse_override(text));
+    return overrides;
+}
+
+/// Where the other run's scene comes from.
+struct OtherSource {
+    std::string text, file;
+    std::vector<Override> overrides;
+    bool same_file = false;
+};
+
+OtherSource other_source(const Scene& scene, const std::string& text,
+                         const std::vector<Override>& overrides, const Against& wanted) {
+    OtherSource other;
+    other.same_file = wanted.scene.empty();
+    if (scene.file == "<stdin>" && wanted.scene == "-")
+        throw Failure(FailureKind::kInput, "--against -: standard input is the scene itself");
+    other.text = other.same_file ? text : read_scene_text(wanted.scene);
+    other.file = other.same_file ? scene.file : wanted.scene == "-" ? "<stdin>" : wanted.scene;
+    if (other.same_file) other.overrides = overrides;
+    for (const Override& override : overrides_of(wanted.set)) other.overrides.push_back(override);
+    return other;
+}
+
+void print(const Diagnostics& diagnostics, bool quiet) {
+    for (const Diagnostic& d : diagnostics.items())
+        if (!quiet || d.severity == Severity::kError) fmt::print(stderr, "{}\n", d.text());
+}
+
+std::string run_name(const Scene& scene, const Scene& other) {
+    if (!scene.title.empty() && scene.title != other.title) return scene.title;
+    return scene_stem(scene.file == "<stdin>" ? "-" : scene.file);
+}
+
+}  // namespace
+
+void add_against_options(CLI::App& command, AgainstOptions& options) {
+    command
+        .add_option("--against", options.scene,
+                    "Another scene to show with this one: balls of equal names are compared")
+        ->type_name("OTHER.yaml");
+    command
+        .add_option("--against-set", options.set,
+                    "The same scene (or OTHER) with a value set, e.g. simulation.method=fixed "
+                    "(repeatable)")
+        ->type_name("PATH=VALUE")
+        ->take_all()
+        ->allow_extra_args(false);
+    command.add_option("--against-view", options.view, "ghost (default) or side")
+        ->check(CLI::IsMember({"ghost", "side"}));
+}
+
+std::optional<FilmScenes> load_film_scenes(const std::string& path, const CommonOptions& options,
+                                           const AgainstOptions& against) {
+    const std::string text = read_scene_text(path);
+    const std::vector<Override> overrides = options.overrides();
+    SceneResult first = read_scene(text, path == "-" ? "<stdin>" : path, overrides);
+    print(first.diagnostics, options.quiet);
+    if (!first.scene) return std::nullopt;
+    FilmScenes scenes{std::move(*first.scene), std::nullopt, AgainstView::kGhost, {}};
+    const std::optional<Against> wanted = wanted_against(scenes.scene, against);
+    if (!wanted) return scenes;
+
+    scenes.view = wanted->view;
+    const OtherSource other = other_source(scenes.scene, text, overrides, *wanted);
+    SceneResult second = read_scene(other.text, other.file, other.overrides);
+    // Of the same file warnings have been printed.
+    print(second.diagnostics, options.quiet || other.same_file);
+    if (!second.scene) return std::nullopt;
+    scenes.other = std::move(second.scene);
+    scenes.differences = scene_differences(text, overrides, other.text, other.overrides);
+    if (scenes.differences.empty() && !options.quiet)
+        fmt::print(stderr, "carom: warning: both runs are the same\n");
+    return scenes;
+}
+
+std::optional<SceneResult> read_other(const Scene& scene, const std::string& text,
+                                      const std::vector<Override>& overrides) {
+    const std::optional<Against> wanted = wanted_against(scene, {});
+    if (!wanted) return std::nullopt;
+    const OtherSource other = other_source(scene, text, overrides, *wanted);
+    return read_scene(other.text, other.file, other.overrides);
+}
+
+std::optional<FilmedSecond> simulate_second(const FilmScenes& scenes, const Motion& first,
+                                            const std::stop_token& stop) {
+    if (!scenes.other) return std::nullopt;
+    FilmedSecond second;
+    second.run.scene = *scenes.other;
+    second.run.view = scenes.view;
+    second.run.differences = scenes.differences;
+    second.run.first_name = run_name(scenes.scene, *scenes.other);
+    second.run.second_name = run_name(*scenes.other, scenes.scene);
+    if (second.run.first_name == second.run.second_name) second.run.second_name += " (other run)";
+    check_runs(scenes.scene, second.run);
+    SimulationResult result = simulate(*scenes.other, stop);
+    second.motion_hash = result.motion.hash();
+    second.report = std::move(result.report);
+    second.run.ended_s = result.motion.duration;
+    second.run.motion = held_until(std::move(result.motion), first.duration);
+    return second;
+}
+
+}  // namespace carom

@@ -1,0 +1,24 @@
+// The balls of one picture: those of the scene, and those of a run that it is shown against.
+#pragma once
+
+#include <vector>
+
+#include "render/balls_in_view.h"
+#include "render/picture_mean.h"
+#include "render/two_runs.h"
+
+namespace carom {
+
+/// Each sorted as balls_at() gives them. Where both runs agree, only the solid ball is there.
+struct Bodies {
+    std::vector<BallInView> balls, ghosts;
+};
+
+/// `second` may be null: then there are no ghosts.
+Bodies bodies_at(const std::vector<double>& instants, const Scene& scene, const Motion& motion,
+                 const SecondRun* second, const View& view);
+
+/// Adds the tiles in which the balls are seen, with their soft edges.
+void mark_balls(const std::vector<BallInView>& balls, const View& view, TileMask& mask);
+
+}  // namespace carom

@@ -1,0 +1,179 @@
+#include "render/two_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <type_traits>
+
+#include "core/failure.h"
+
+namespace carom {
+
+namespace {
+
+bool same(const PlaneShape& a, const PlaneShape& b) {
+    return a.normal == b.normal && a.offset_m == b.offset_m;
+}
+bool same(const BoxShape& a, const BoxShape& b) {
+    return a.center == b.center && a.size == b.size &&
+           a.orientation.coeffs() == b.orientation.coeffs();
+}
+bool same(const SphereShape& a, const SphereShape& b) {
+    return a.center == b.center && a.radius == b.radius;
+}
+bool same(const CapsuleShape& a, const CapsuleShape& b) {
+    return a.from == b.from && a.to == b.to && a.radius == b.radius;
+}
+
+bool same_shape(const SurfaceShape& a, const SurfaceShape& b) {
+    if (a.index() != b.index()) return false;
+    return std::visit(
+        [&](const auto& shape) { return same(shape, std::get<std::decay_t<decltype(shape)>>(b)); },
+        a);
+}
+
+/// The name of a surface that only one of the scenes has, or has there; "" if they are alike.
+std::string odd_surface(const Scene& a, const Scene& b) {
+    const std::size_t common = std::min(a.surfaces.size(), b.surfaces.size());
+    for (std::size_t i = 0; i < common; ++i)
+        if (!same_shape(a.surfaces[i].shape, b.surfaces[i].shape)) return b.surfaces[i].name;
+    if (a.surfaces.size() > common) return a.surfaces[common].name;
+    return b.surfaces.size() > common ? b.surfaces[common].name : "";
+}
+
+std::string listed_names(const Scene& scene) {
+    constexpr std::size_t kMost = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kMost, scene.balls.size()); ++i)
+        text += (i == 0 ? "" : ", ") + scene.balls[i].name;
+    return scene.balls.size() > kMost ? text + ", ..." : text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::vector<BallPair> paired_balls(const Scene& first, const Scene& second) {
+    std::map<std::string, std::size_t> index;
+    for (std::size_t i = 0; i < second.balls.size(); ++i) index.emplace(second.balls[i].name, i);
+    std::vector<BallPair> pairs;
+    for (std::size_t i = 0; i < first.balls.size(); ++i)
+        if (const auto found = index.find(first.balls[i].name); found != index.end())
+            pairs.push_back({i, found->second});
+    return pairs;
+}
+
+void check_runs(const Scene& first, const SecondRun& second) {
+    if (paired_balls(first, second.scene).empty())
+        throw Failure(FailureKind::kInput,
+                      fmt::format("no ball of '{}' has the name of a ball of '{}', so that nothing "
+                                  "can be compared: {} against {}",
+                                  first.file, second.scene.file, listed_names(first),
+                                  listed_names(second.scene)));
+    if (second.view != AgainstView::kGhost) return;
+    if (const std::string surface = odd_surface(first, second.scene); !surface.empty())
+        throw Failure(FailureKind::kInput,
+                      fmt::format("the surface '{}' is not the same in both runs, and ghosts are "
+                                  "drawn over one set of surfaces; --against-view side shows both",
+                                  surface));
+}
+
+Apart farthest_apart(const Motion& first, const Motion& second, const std::vector<BallPair>& pairs,
+                     double t) {
+    Apart apart;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const Vec3 a = first.balls[pairs[i].first].at(t).position;
+        const double metres = (second.balls[pairs[i].second].at(t).position - a).norm();
+        if (metres > apart.metres) apart = {metres, i};
+    }
+    return apart;
+}
+
+std::string distance_text(double metres) {
+    struct Unit {
+        double metres;
+        const char* name;
+    };
+    if (metres < 1e-6) return metres == 0 ? "0 mm" : "< 0.001 mm";
+    const Unit unit = metres < 0.01 ? Unit{1e-3, "mm"}
+                      : metres < 1  ? Unit{1e-2, "cm"}
+                                    : Unit{1, "m"};
+    const double value = metres / unit.metres;
+    // Three digits, but no more than a micrometre, and whole numbers in full.
+    const int digits = static_cast<int>(std::floor(std::log10(value))) + 1;
+    const int decimals = std::clamp(3 - digits, 0, unit.metres == 1 ? 2 : 3);
+    return fmt::format("{:.{}f} {}", value, std::min(decimals, value < 1 ? 3 : 2), unit.name);
+}
+
+Motion held_until(Motion motion, double duration) {
+    for (Trajectory& ball : motion.balls) {
+        Trajectory held;
+        for (const Piece& piece : ball.pieces())
+            if (piece.start <= duration) held.append(piece);
+        if (motion.duration < duration) {
+            const BallState last = ball.at(motion.duration);
+            Piece rest;
+            rest.start = motion.duration;
+            rest.position = last.position;
+            rest.orientation = last.orientation;
+            held.append(rest);
+        }
+        ball = std::move(held);
+    }
+    motion.duration = duration;
+    return motion;
+}
+
+JoinedRuns join_runs(const Scene& scene, const Motion& motion, const SecondRun& second) {
+    JoinedRuns joined{scene, motion};
+    const auto balls = static_cast<int>(scene.balls.size());
+    const auto surfaces = static_cast<int>(scene.surfaces.size());
+    Look ghost;
+    const Ink ink = ghost_ink(scene.overlay.theme);
+    ghost.color = ghost.second_color = {ink.r, ink.g, ink.b};
+    joined.scene.looks.push_back(ghost);
+    std::string name = "ghost";
+    if (second.differences.size() == 1) {
+        const SceneDifference& only = second.differences.front();
+        name = only.path.substr(only.path.rfind('.') + 1) + ": " + only.second;
+    }
+    for (Ball ball : second.scene.balls) {
+        ball.look = static_cast<int>(joined.scene.looks.size()) - 1;
+        ball.name = name;
+        joined.scene.balls.push_back(std::move(ball));
+    }
+    // Surfaces of the other run stand in the other half of the picture, where there is one.
+    if (second.view == AgainstView::kSide)
+        for (const Surface& surface : second.scene.surfaces)
+            joined.scene.surfaces.push_back(surface);
+
+    const Motion& other = second.motion;
+    joined.motion.ball_names.insert(joined.motion.ball_names.end(), other.ball_names.begin(),
+                                    other.ball_names.end());
+    joined.motion.balls.insert(joined.motion.balls.end(), other.balls.begin(), other.balls.end());
+    joined.motion.peaks.resize(joined.motion.balls.size());
+    for (Event event : other.events) {
+        if (event.time > motion.duration) break;
+        event.ball += balls;
+        event.other.index += event.other.is_surface ? surfaces : balls;
+        joined.motion.events.push_back(event);
+    }
+    std::stable_sort(joined.motion.events.begin(), joined.motion.events.end(),
+                     [](const Event& a, const Event& b) { return a.time < b.time; });
+
+    if (joined.scene.overlay.plot) {
+        std::vector<int>& plotted = joined.scene.overlay.plot->balls;
+        const std::vector<int> own = plotted;
+        for (const BallPair& pair : paired_balls(scene, second.scene))
+            if (std::find(own.begin(), own.end(), static_cast<int>(pair.first)) != own.end())
+                plotted.push_back(balls + static_cast<int>(pair.second));
+    }
+    return joined;
+}
+
+Ink ghost_ink(Theme theme) {
+    if (theme == Theme::kLight) return {0.263, 0.220, 0.792, 1};  // #4338ca
+    return {0.702, 0.722, 0.992, 1};                              // #b3b8fd
+}
+
+}  // namespace carom

@@ -1,0 +1,210 @@
+// Two runs in one picture: who belongs to whom, how far apart, and what is seen of a ghost.
+#include "render/two_runs.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "core/failure.h"
+#include "hand_made_scene.h"
+#include "render/overlay_against.h"
+
+namespace carom {
+namespace {
+
+using testing::HandMadeScene;
+
+constexpr int kWidth = 320, kHeight = 180;
+const Color kRed{0.8, 0.05, 0.05};
+
+SecondRun second_of(const HandMadeScene& made, AgainstView view = AgainstView::kGhost) {
+    SecondRun second;
+    second.scene = made.scene;
+    second.motion = made.motion;
+    second.ended_s = made.motion.duration;
+    second.view = view;
+    second.differences = {{"simulation.method", "exact", "fixed"}};
+    second.first_name = "one";
+    second.second_name = "other";
+    return second;
+}
+
+HandMadeScene one_ball(const Vec3& position, double radius = 0.3) {
+    HandMadeScene made;
+    made.camera({0, -5, 0}, {0, 0, 0});
+    made.ball(position, radius, made.look(LookStyle::kPlain, kRed));
+    return made;
+}
+
+Image painted(const HandMadeScene& made, const SecondRun* second, double t = 0) {
+    Painter painter(made.scene, made.motion, {kWidth, kHeight, second});
+    Image image;
+    painter.paint(t, image);
+    return image;
+}
+
+/// Pixels in the middle of the picture, clear of the plate, where two pictures are not the same.
+int differing(const Image& a, const Image& b) {
+    int count = 0;
+    for (int y = 30; y < 125; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            count += std::equal(a.row(y) + 4 * x, a.row(y) + 4 * x + 4, b.row(y) + 4 * x) ? 0 : 1;
+    return count;
+}
+
+TEST(TwoRuns, BallsBelongTogetherByName) {
+    HandMadeScene a, b;
+    for (int i = 0; i < 3; ++i) a.ball({1.0 * i, 0, 0}, 0.1);
+    for (int i = 0; i < 2; ++i) b.ball({1.0 * i, 0, 0.25 * i}, 0.1);
+    std::swap(b.scene.balls[0].name, b.scene.balls[1].name);
+    const auto pairs = paired_balls(a.scene, b.scene);
+    ASSERT_EQ(2u, pairs.size());
+    EXPECT_EQ(1u, pairs[0].second);
+    const Apart apart = farthest_apart(a.motion, b.motion, pairs, 0);
+    EXPECT_NEAR(std::hypot(1, 0.25), apart.metres, 1e-15);
+    EXPECT_EQ(0u, apart.pair);
+}
+
+TEST(TwoRuns, WhatCannotBeComparedIsRefused) {
+    HandMadeScene a = one_ball({0, 0, 0}), b = one_ball({0, 0, 0});
+    b.scene.balls[0].name = "stranger";
+    EXPECT_THROW(check_runs(a.scene, second_of(b)), Failure);
+
+    HandMadeScene c = one_ball({0, 0, 0});
+    c.surface(SphereShape{{0, 0, -1}, 0.2});
+    EXPECT_THROW(check_runs(a.scene, second_of(c)), Failure) << "a surface that is not drawn";
+    EXPECT_NO_THROW(check_runs(a.scene, second_of(c, AgainstView::kSide)));
+    EXPECT_NO_THROW(check_runs(c.scene, second_of(c)));
+}
+
+TEST(TwoRuns, DistancesHaveTheUnitThatSuits) {
+    EXPECT_EQ("0 mm", distance_text(0));
+    EXPECT_EQ("< 0.001 mm", distance_text(1e-9));
+    EXPECT_EQ("0.012 mm", distance_text(1.2e-5));
+    EXPECT_EQ("3.21 mm", distance_text(0.003214));
+    EXPECT_EQ("1.23 cm", distance_text(0.01234));
+    EXPECT_EQ("45.7 cm", distance_text(0.4567));
+    EXPECT_EQ("1.25 m", distance_text(1.25));
+    EXPECT_EQ("1234 m", distance_text(1234.4));
+}
+
+TEST(TwoRuns, AShorterMotionStaysWhereItEnds) {
+    HandMadeScene made;
+    made.ball({0, 0, 0}, 0.1, 0, {0, 0, 1}, {2, 0, 0});
+    const Motion held = held_until(made.motion, 15);
+    EXPECT_EQ(15, held.duration);
+    EXPECT_NEAR(20, held.balls[0].at(10).position.x(), 1e-12);
+    EXPECT_NEAR(20, held.balls[0].at(14).position.x(), 1e-12);
+    EXPECT_EQ(held.balls[0].at(10).orientation.coeffs(), held.balls[0].at(15).orientation.coeffs());
+    EXPECT_NEAR(8, held_until(made.motion, 4).balls[0].at(4).position.x(), 1e-12);
+}
+
+// The camera of both holds both: the other run's ball goes twice as far.
+TEST(TwoRuns, FramingHoldsBothMotions) {
+    HandMadeScene a, b;
+    a.ball({0, 0, 1}, 0.1, 0, Vec3::Zero(), {0.2, 0, 0});
+    b.ball({0, 0, 1}, 0.1, 0, Vec3::Zero(), {-0.4, 0, 0});
+    const JoinedRuns joined = join_runs(a.scene, a.motion, second_of(b));
+    const View view(choose_camera(joined.scene, joined.motion, 16.0 / 9), kWidth, kHeight);
+    for (const double x : {2.0, -4.0}) {
+        const View::Projected p = view.project({x, 0, 1});
+        EXPECT_GT(p.x_px, 0);
+        EXPECT_LT(p.x_px, kWidth);
+    }
+    const View alone(choose_camera(a.scene, a.motion, 16.0 / 9), kWidth, kHeight);
+    EXPECT_LT(alone.project({-4, 0, 1}).x_px, 0) << "the test shows nothing";
+}
+
+TEST(Ghost, WhereBothRunsAgreeOnlyTheSolidBallIsSeen) {
+    const HandMadeScene made = one_ball({0, 0, 0});
+    const SecondRun same = second_of(made);
+    EXPECT_EQ(0, differing(painted(made, nullptr), painted(made, &same)));
+}
+
+TEST(Ghost, ASolidBallHidesWhatLiesBehindIt) {
+    const HandMadeScene solid = one_ball({0, 0, 0}, 0.5);
+    const Image alone = painted(solid, nullptr);
+    const SecondRun behind = second_of(one_ball({0, 2, 0}, 0.3));
+    EXPECT_EQ(0, differing(alone, painted(solid, &behind)));
+    const SecondRun before = second_of(one_ball({0, -1, 0}, 0.3));
+    const int tinted = differing(alone, painted(solid, &before));
+    fmt::print("pixels that a ghost before the ball changes: {}\n", tinted);
+    EXPECT_GT(tinted, 800);
+}
+
+// Two balls that reach into each other meet in a plane: left of it the left one is in front.
+TEST(Ghost, WhereBallsMeetEachPixelHasItsOwnOrder) {
+    const HandMadeScene solid = one_ball({0.1, 0, 0}, 0.5);
+    const Image alone = painted(solid, nullptr);
+    const SecondRun left = second_of(one_ball({-0.1, 0, 0}, 0.5));
+    const Image both = painted(solid, &left);
+    const int y = kHeight / 2;
+    const auto changed = [&](int x) {
+        return !std::equal(both.row(y) + 4 * x, both.row(y) + 4 * x + 4, alone.row(y) + 4 * x);
+    };
+    // The solid ball's right part is untouched, and so is its part right of the middle.
+    for (int x = kWidth / 2 + 4; x < kWidth; ++x) EXPECT_FALSE(changed(x)) << x;
+    int ghost = 0;
+    for (int x = 0; x < kWidth / 2 - 4; ++x) ghost += changed(x) ? 1 : 0;
+    EXPECT_GT(ghost, 20) << "left of the middle the ghost is in front";
+}
+
+TEST(SideBySide, EqualRunsGiveEqualHalves) {
+    HandMadeScene made = one_ball({0, 0, 0});
+    made.surface(PlaneShape{Vec3::UnitZ(), -0.5});
+    SecondRun same = second_of(made, AgainstView::kSide);
+    same.differences = {{"simulation.method", "exact", "exact"}};
+    const Image image = painted(made, &same);
+    ASSERT_EQ(kWidth, image.width_px);
+    int wrong = 0, dark = 0;
+    const int half = (kWidth - 2) / 2;  // a divider of 2 px, so that both halves are equal
+    for (int y = 0; y < 140; ++y) {
+        for (int x = 0; x < half; ++x) {
+            const std::uint8_t *l = image.row(y) + 4 * x, *r = l + 4 * (half + 2);
+            wrong += std::equal(l, l + 4, r) ? 0 : 1;
+            dark += l[2] > l[1] + 40 ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(0, wrong);
+    EXPECT_GT(dark, 300) << "the ball";
+}
+
+TEST(OverlayAgainst, SaysTheDistanceAndWhoseItIs) {
+    HandMadeScene a, b;
+    for (HandMadeScene* made : {&a, &b})
+        for (int i = 0; i < 2; ++i) made->ball({1.0 * i, 0, 0}, 0.1);
+    b.motion.balls[1] = Trajectory();
+    Piece piece;
+    piece.position = {1, 0, 0};
+    piece.velocity = {0, 0, 0.1};
+    b.motion.balls[1].append(piece);
+    SecondRun second = second_of(b);
+    second.ended_s = 8;
+    const OverlayAgainst plate(a.scene, a.motion, second, kWidth, kHeight, {}, kOverlayFontFamily,
+                               {});
+    EXPECT_EQ("Farthest apart: 0 mm", plate.distance_line(0));
+    EXPECT_EQ("Farthest apart: ball1, 10.0 cm", plate.distance_line(1));
+    EXPECT_EQ("Farthest apart: ball1, 90.0 cm (the other ended at 8 s)", plate.distance_line(9));
+    EXPECT_EQ("simulation.method: exact", run_caption(second, false));
+    EXPECT_EQ("simulation.method: fixed", run_caption(second, true));
+    EXPECT_EQ("method: fixed", run_caption(second, true, true));
+    second.differences = {{"balls.a.mass", "1", "2"}, {"balls.b.mass", "1", "3"}};
+    EXPECT_EQ("a.mass: 2\nb.mass: 3", run_caption(second, true, true));
+    second.differences.resize(9);
+    EXPECT_EQ("one", run_caption(second, false));
+    // Inside the picture, and off what is taken.
+    const OverlayPainter::Rect corner{0, kHeight - 60, 100, 60};
+    const OverlayAgainst elsewhere(a.scene, a.motion, second, kWidth, kHeight, {{corner}, {}},
+                                   kOverlayFontFamily, {});
+    EXPECT_FALSE(elsewhere.rect().overlaps(corner));
+    // Of free corners, one where balls do not come.
+    const OverlayAgainst free(a.scene, a.motion, second, kWidth, kHeight,
+                              {{}, {{20, kHeight - 20}, {kWidth - 20, kHeight - 20}, {20, 20}}},
+                              kOverlayFontFamily, {});
+    EXPECT_GT(free.rect().x, 10);
+    EXPECT_LT(free.rect().y, kHeight / 2);
+    EXPECT_GE(elsewhere.rect().x, 0);
+    EXPECT_LE(elsewhere.rect().right(), kWidth);
+}
+
+}  // namespace
+}  // namespace carom
