@@ -14,6 +14,7 @@
 
 #include "core/check.h"
 #include "render/painter.h"
+#include "render/two_runs.h"
 #include "scene/reader.h"
 #include "sim/simulate.h"
 
@@ -29,6 +30,9 @@ struct Feature {
     const char* body = "";
     const char* camera = "";
     const char* overlay = "";
+    const char* film = "";
+    const char* background = "sky";
+    bool against = false;  ///< shows the motion of a coarse step beside it, as ghosts
 };
 
 constexpr const char* kBox =
@@ -59,6 +63,10 @@ std::vector<Feature> features() {
         {.name = "velocity arrows", .effect = "velocity", .overlay = "velocity: true"},
         {.name = "plot", .effect = "plot", .overlay = "plot: true"},
         {.name = "all of the overlay", .effect = "plot", .overlay = kEverything},
+        {.name = "ghosts of a second run", .effect = "against", .against = true},
+        {.name = "motion blur, 90 degrees", .effect = "motion_blur", .film = ", shutter_deg: 90"},
+        {.name = "motion blur, 180 degrees", .effect = "motion_blur", .film = ", shutter_deg: 180"},
+        {.name = "transparent", .effect = "transparent", .background = "transparent"},
         {.name = "moving camera", .camera = kTurning},
         {.name = "moving camera, box", .effect = "occlusion", .body = kBox, .camera = kTurning},
         {.name = "moving camera, overlay",
@@ -80,8 +88,9 @@ std::string scene_text(const Feature& feature) {
         "  - {{name: middle, position: [0, 0, 0.9], velocity: [0.4, 0, 0]}}\n"
         "  - {{name: right, position: [0.9, 0, 1.1], spin: [0, 8, 0]}}\n"
         "camera: {{from: [0, -5, 1.4], to: [0, 0, 0.7], fov_deg: 34{}}}\n"
-        "film: {{size: [1280, 720], fps: 60}}\noverlay: {{{}}}\n",
-        feature.floor, feature.ball, feature.body, feature.camera, feature.overlay);
+        "film: {{size: [1280, 720], fps: 60{}}}\nbackground: {}\noverlay: {{{}}}\n",
+        feature.floor, feature.ball, feature.body, feature.camera, feature.film, feature.background,
+        feature.overlay);
 }
 
 struct Cost {
@@ -95,7 +104,23 @@ Cost cost_of(const Feature& feature, int frames) {
     if (!read.scene) throw Bug(fmt::format("{}: the scene is wrong", feature.name));
     const Scene& scene = *read.scene;
     const SimulationResult simulated = simulate(scene);
-    Painter painter(scene, simulated.motion, {scene.film.width_px, scene.film.height_px});
+    std::optional<SecondRun> second;
+    if (feature.against) {
+        Scene coarse = scene;
+        coarse.simulation.method = Method::kFixed;
+        coarse.simulation.step = 0.01;
+        const Motion motion = simulate(coarse).motion;
+        second.emplace();
+        second->scene = coarse;
+        second->motion = motion;
+        second->ended_s = motion.duration;
+        second->first_name = "exact";
+        second->second_name = "fixed";
+    }
+    Painter painter(scene, simulated.motion,
+                    {.width_px = scene.film.width_px,
+                     .height_px = scene.film.height_px,
+                     .against = second ? &*second : nullptr});
     Image picture;
     Cost cost;
     std::vector<double> each;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Pattern {
     Color color, second;
     double tile_m;
 };
+
+void PrintTo(const Pattern& pattern, std::ostream* out) { *out << pattern.name; }
 
 constexpr Pattern kPatterns[] = {
     {"checker", LookStyle::kChecker, {0.92, 0.91, 0.88}, {0.84, 0.82, 0.78}, 0.5},
