@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/overlay_style.h"
+#include "scene/film_clock.h"
 
 namespace carom {
 
@@ -166,8 +167,9 @@ Eigen::MatrixXd OverlayLabels::closeness(double t) const {
     const auto count = static_cast<Eigen::Index>(pictures_.size());
     Eigen::MatrixXd close = Eigen::MatrixXd::Zero(count, count);
     std::vector<LabelWish> before, after;
+    const double now_s = film_time(scene_.film, t);
     for (int k = -kSteps; k <= kSteps; ++k) {
-        const double moment = t + k * kStep_s * scene_.film.speed;
+        const double moment = motion_time(scene_.film, now_s + k * kStep_s);
         after = wishes(std::clamp(moment, 0.0, motion_.duration));
         const double weight = nearness(std::min(std::abs(k), std::abs(k - 1)) / double(kSteps));
         for (Eigen::Index i = 0; i < count && !before.empty(); ++i) {

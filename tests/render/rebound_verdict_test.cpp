@@ -58,8 +58,12 @@ TEST(ReboundVerdict, NoTestNoVerdict) {
 }
 
 /// Pixels that the test changes in the frame at t.
-std::int64_t drawn_at(double low, double t) {
+std::int64_t drawn_at(double low, double t, const std::vector<SpeedKey>& ramp = {}) {
     HandMadeScene with = tested(low, 2), without = tested(low, 2);
+    for (HandMadeScene* scene : {&with, &without}) {
+        scene->scene.film.ramp = ramp;
+        if (!ramp.empty()) scene->scene.film.speed = ramp.back().speed;
+    }
     without.scene.test.reset();
     Image a, b;
     Painter(with.scene, with.motion, {320, 180}).paint(t, a);
@@ -71,6 +75,14 @@ TEST(ReboundVerdict, IsDrawnInTheLastTwoSeconds) {
     EXPECT_EQ(0, drawn_at(0.5, 7.9));
     EXPECT_GT(drawn_at(0.5, 8.1), 1000);
     EXPECT_GT(drawn_at(1.5, 10), 1000);
+}
+
+// Two seconds of the film, whatever its speed: with v = 1 until 8 s and 3 at 10 s, linear between,
+// the last two seconds take ln 3 s on the ramp and begin 2 - ln 3 s before it, at 7.0986 s.
+TEST(ReboundVerdict, IsDrawnInTheLastTwoSecondsOfARamp) {
+    const std::vector<SpeedKey> ramp = {{0, 1}, {8, 1}, {10, 3}};
+    EXPECT_EQ(0, drawn_at(0.5, 7.09, ramp));
+    EXPECT_GT(drawn_at(0.5, 7.11, ramp), 1000);
 }
 
 // Green for a ball that passes, red for one that does not.
