@@ -96,9 +96,13 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
 
     // Beyond a few million pixels well compiled shaders pay.
     constexpr int kFewPixels = 1500 * 1000;
-    if (scene->film.width_px * scene->film.height_px <= kFewPixels) prefer_quick_compile();
-    Painter painter(*scene, simulated.motion,
-                    {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
+    PainterOptions painting;
+    painting.width_px = scene->film.width_px;
+    painting.height_px = scene->film.height_px;
+    painting.against = second ? &second->run : nullptr;
+    painting.few_pictures = painting.width_px * painting.height_px <= kFewPixels;
+    if (painting.few_pictures) prefer_quick_compile();
+    Painter painter(*scene, simulated.motion, painting);
     Image picture;
     painter.paint_strobe(instants(options), picture);
     if (interrupt.requested()) return interrupt.exit_code();

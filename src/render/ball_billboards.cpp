@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace carom {
 
@@ -23,12 +24,27 @@ LookStyle ball_style(LookStyle style) {
     return style >= LookStyle::kChecker ? LookStyle::kPlain : style;
 }
 
-GlProgram make_program(const Gl& gl, LookStyle style, const View& view, bool occluded, bool ghost,
-                       bool mirrored) {
+/// As ball_markings.glsl names the styles; nothing is painted on a plain ball.
+constexpr std::array<const char*, 7> kStyleNames = {
+    "PLAIN", "STRIPED", "BASKETBALL", "VOLLEYBALL", "FOOTBALL", "TENNIS", "TABLE_TENNIS"};
+
+std::set<LookStyle> styles_in(const Scene& scene) {
+    std::set<LookStyle> styles;
+    for (const Ball& ball : scene.balls)
+        styles.insert(ball_style(scene.looks.at(static_cast<std::size_t>(ball.look)).style));
+    return styles;
+}
+
+GlProgram make_program(const Gl& gl, const std::set<LookStyle>& styles, const View& view,
+                       bool occluded, bool ghost, bool mirrored) {
     GlProgram::Sources sources;
-    sources.name = fmt::format("ball, style {}", static_cast<int>(style));
+    sources.name = "ball";
     std::vector<std::string> defines = view_defines(view);
-    defines.push_back(fmt::format("STYLE {}", static_cast<int>(style)));
+    for (const LookStyle style : styles) {
+        defines.push_back(kStyleNames.at(static_cast<std::size_t>(style)));
+        sources.name += fmt::format(", style {}", static_cast<int>(style));
+    }
+    if (styles.size() > 1) defines.push_back("SEVERAL_STYLES");
     if (occluded) defines.push_back("OCCLUDED");
     if (ghost) defines.push_back("GHOST");
     if (mirrored) defines.push_back("MIRRORED");
@@ -55,7 +71,7 @@ Vec3 linear(const Color& c) {
 }  // namespace
 
 BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& view,
-                               const Lights& lights, bool occluded,
+                               const Lights& lights, bool occluded, BallPrograms programs,
                                const std::optional<GhostLook>& ghost, Kind kind)
     : gl_(&gl),
       scene_(&scene),
@@ -67,12 +83,12 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
       vertex_array_(gl),
       instance_buffer_(gl),
       caster_array_(gl) {
-    for (const Ball& ball : scene.balls) {
-        const LookStyle style =
-            ball_style(scene.looks.at(static_cast<std::size_t>(ball.look)).style);
-        if (programs_.count(style) != 0) continue;
-        GlProgram program =
-            make_program(gl, style, view, occluded, ghost.has_value(), kind == Kind::kMirrored);
+    const std::set<LookStyle> styles = styles_in(scene);
+    for (const LookStyle style : styles) {
+        const bool for_all = programs == BallPrograms::kOneForAll;
+        if (for_all && !programs_.empty()) break;
+        GlProgram program = make_program(gl, for_all ? styles : std::set<LookStyle>{style}, view,
+                                         occluded, ghost.has_value(), kind == Kind::kMirrored);
         set_common_uniforms(gl, program, view, lights);
         if (ghost) {
             const auto f = [](double value) { return static_cast<float>(value); };
@@ -133,6 +149,10 @@ BallShade BallBillboards::shade_on(const BallInView& ball) const {
 
 LookStyle BallBillboards::style_of(const BallInView& ball) const {
     return ball_style(scene_->looks[static_cast<std::size_t>(ball.look)].style);
+}
+
+const GlProgram& BallBillboards::program_of(LookStyle style) const {
+    return programs_.size() == 1 ? programs_.begin()->second : programs_.at(style);
 }
 
 BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInView>& balls) const {
@@ -214,7 +234,7 @@ void BallBillboards::append_instance(const BallInView& ball, const BallShade& sh
     put(instances_, rest / ball.radius, 0);
     for (int row = 0; row < 3; ++row)
         put(instances_, ball.ball_from_view.row(row).transpose(), row == 0 ? shade.key : 0.0);
-    put(instances_, linear(look.color), 0);
+    put(instances_, linear(look.color), static_cast<double>(ball_style(look.style)));
     put(instances_, linear(look.second_color), 0);
     put(instances_, shade.contact, shade.contact_strength);
 }
@@ -232,13 +252,13 @@ void BallBillboards::draw_ghosts(const std::vector<BallInView>& ghosts,
 void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
                                     const StaticPicture& background) {
     instances_.clear();
-    std::vector<LookStyle> styles;  // of the balls that may be seen
+    std::vector<const GlProgram*> programs;  // of the balls that may be seen
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (!may_be_seen(balls[i], view_)) continue;
         append_instance(balls[i], shade_on(balls[i]), casters.first[i], casters.count[i]);
-        styles.push_back(style_of(balls[i]));
+        programs.push_back(&program_of(style_of(balls[i])));
     }
-    if (styles.empty()) return;
+    if (programs.empty()) return;
 
     caster_array_.upload(casters.vec4s);
     caster_array_.bind(2);
@@ -259,12 +279,12 @@ void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const 
     gl_->Enable(GL_BLEND);
     gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
-    // One call per run of equal styles: the order from far to near must stay.
+    // One call per run of equal programs: the order from far to near must stay.
     constexpr std::size_t kStride = kInstanceFloats * sizeof(float);
-    for (std::size_t begin = 0; begin < styles.size();) {
+    for (std::size_t begin = 0; begin < programs.size();) {
         std::size_t end = begin + 1;
-        while (end < styles.size() && styles[end] == styles[begin]) ++end;
-        programs_.at(styles[begin]).use();
+        while (end < programs.size() && programs[end] == programs[begin]) ++end;
+        programs[begin]->use();
         for (GLuint i = 0; i < kAttributes.size(); ++i) {
             const std::size_t offset = begin * kStride + std::size_t{i} * 4 * sizeof(float);
             gl_->VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kStride),

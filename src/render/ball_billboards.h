@@ -19,18 +19,23 @@ struct GhostLook {
     double outline_px = 2;
 };
 
-/// Compiles one program per style of ball that the scene has, and no other.
+/// Programs that draw fast, one for each style of ball that the scene has; or one for all of its
+/// styles, which compiles sooner.
+enum class BallPrograms { kEachStyle, kOneForAll };
+
+/// Compiles programs for the styles of ball that the scene has, and for no other.
 class BallBillboards {
   public:
     enum class Kind { kBalls, kMirrored };
     /// For mirror images, set_mirror() says in which mirror.
     BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
                    Kind kind)
-        : BallBillboards(gl, scene, view, lights, false, std::nullopt, kind) {}
+        : BallBillboards(gl, scene, view, lights, false, BallPrograms::kEachStyle, std::nullopt,
+                         kind) {}
     /// `gl` and `scene` must outlive it. `occluded`: static bodies may stand before balls.
     BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                   bool occluded, const std::optional<GhostLook>& ghost = std::nullopt,
-                   Kind kind = Kind::kBalls);
+                   bool occluded, BallPrograms programs = BallPrograms::kEachStyle,
+                   const std::optional<GhostLook>& ghost = std::nullopt, Kind kind = Kind::kBalls);
 
     /// Another view of the same size and kind.
     void set_view(const View& view, const Lights& lights);
@@ -60,6 +65,7 @@ class BallBillboards {
                          int casters);
     BallShade shade_on(const BallInView& ball) const;
     LookStyle style_of(const BallInView& ball) const;
+    const GlProgram& program_of(LookStyle style) const;
 
     const Gl* gl_;
     const Scene* scene_;
@@ -73,7 +79,7 @@ class BallBillboards {
     std::optional<MirrorPlane> mirror_;
     double light_tan_;
     bool occluded_;
-    std::map<LookStyle, GlProgram> programs_;
+    std::map<LookStyle, GlProgram> programs_;  ///< by style; one alone draws all of them
     GlVertexArray vertex_array_;
     GlBuffer instance_buffer_;
     GlVec4Array caster_array_;

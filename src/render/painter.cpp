@@ -97,13 +97,16 @@ class Painter::Impl {
         }
         if (wants_reflection(scene) && !scene.balls.empty() && !transparent_)
             reflections_.emplace(gl_, scene, view, lights_, scale_of(scene, camera));
-        balls_.emplace(gl_, scene, view, lights_, surfaces_.can_occlude());
+        const BallPrograms programs =
+            options.few_pictures ? BallPrograms::kOneForAll : BallPrograms::kEachStyle;
+        balls_.emplace(gl_, scene, view, lights_, surfaces_.can_occlude(), programs);
         if (against_ != nullptr) {
             const Ink ink = ghost_ink(scene.overlay.theme);
             const GhostLook look{
                 {linear_from_srgb(ink.r), linear_from_srgb(ink.g), linear_from_srgb(ink.b)},
                 std::max(1.2, overlay_px(kGhostOutlinePx, height_px_))};
-            ghosts_.emplace(gl_, against_->scene, view, lights_, surfaces_.can_occlude(), look);
+            ghosts_.emplace(gl_, against_->scene, view, lights_, surfaces_.can_occlude(), programs,
+                            look);
         }
         if (scene.film.shutter_deg > 0) mean_.emplace(gl_, width_px_, height_px_);
         check_not_blank();
@@ -360,7 +363,7 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
 Painter::Painter(const Scene& scene, const Motion& motion, const PainterOptions& options) {
     if (options.against != nullptr && options.against->view == AgainstView::kSide)
         halves_ = std::make_unique<SideBySide>(scene, motion, *options.against, options.width_px,
-                                               options.height_px);
+                                               options.height_px, options.few_pictures);
     else
         impl_ = std::make_unique<Impl>(scene, motion, options);
 }

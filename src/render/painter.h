@@ -20,6 +20,7 @@ struct PainterOptions {
     int height_px = 720;
     const SecondRun* against = nullptr;  ///< a run to show with the first; must outlive the painter
     const PicturePart* part = nullptr;   ///< this is half of a picture (render/side_by_side.h)
+    bool few_pictures = false;  ///< programs that compile soon rather than draw fast; same pixels
 };
 
 class SideBySide;

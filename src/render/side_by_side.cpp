@@ -84,7 +84,7 @@ PicturePart SideBySide::part_of(const Motion& motion) const {
 }
 
 SideBySide::SideBySide(const Scene& scene, const Motion& motion, const SecondRun& second,
-                       int width_px, int height_px)
+                       int width_px, int height_px, bool few_pictures)
     : second_(second),
       width_px_(width_px),
       height_px_(height_px),
@@ -105,6 +105,7 @@ SideBySide::SideBySide(const Scene& scene, const Motion& motion, const SecondRun
         options.width_px = half_px_;
         options.height_px = height_px_;
         options.part = &part_;
+        options.few_pictures = few_pictures;
         return std::make_unique<Painter>(half_scene, half_motion, options);
     };
     left_ = half(left_scene_, motion);

@@ -26,7 +26,7 @@ class SideBySide {
   public:
     /// All must outlive it.
     SideBySide(const Scene& scene, const Motion& motion, const SecondRun& second, int width_px,
-               int height_px);
+               int height_px, bool few_pictures);
 
     void paint(const std::vector<double>& instants, Image& out);
     std::string renderer() const { return left_->renderer(); }

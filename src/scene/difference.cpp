@@ -146,8 +146,17 @@ void Comparison::section(Section section, const Side& a, const Side& b, const st
     }
 }
 
+/// Steps and solvers are read by the method `fixed` alone.
+bool is_unread(const KeySpec& spec, const Side& side) {
+    if (spec.section != Section::kSimulation) return false;
+    if (spec.key != "step" && spec.key != "solver" && spec.key != "iterations") return false;
+    const Node* method = child_of(side.map, "method");
+    return method == nullptr || method->text != "fixed";
+}
+
 /// The value of a key, or what stands for it where it is left out.
 std::string Comparison::text(const KeySpec& spec, const Side& side) const {
+    if (is_unread(spec, side)) return "\u2013";
     if (const Node* node = child_of(side.map, spec.key)) return shortened(value_text(node));
     if (spec.section == Section::kMaterial && spec.key == "restitution")
         return implied_restitution(*side.root, side.map, side.name);
@@ -170,6 +179,7 @@ void Comparison::value(const KeySpec& spec, const Side& a, const Side& b, const 
     if ((spec.forms & form::kMap) != 0) return section(spec.child, inner(a), inner(b), path);
     if ((spec.forms & (form::kNamedMaps | form::kMaps)) != 0)
         return entries(spec, inner(a), inner(b), path);
+    if (is_unread(spec, a) && is_unread(spec, b)) return;
     const SceneDifference difference{path, text(spec, a), text(spec, b)};
     const bool both = child_of(a.map, spec.key) != nullptr && child_of(b.map, spec.key) != nullptr;
     // Written out in one scene, and left to its default in the other.

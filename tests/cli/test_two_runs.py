@@ -50,7 +50,7 @@ class TwoRuns(ProgramTest):
         self.assertEqual(hashes["exact"], both["motion_hash"])
         self.assertEqual(hashes["fixed"], both["against"]["motion_hash"])
         self.assertEqual("ghost", both["against"]["view"])
-        self.assertEqual({"simulation.method": ["exact", "fixed"], "simulation.step": ["0.00025", "0.01"]},
+        self.assertEqual({"simulation.method": ["exact", "fixed"], "simulation.step": ["\u2013", "0.01"]},
                          both["against"]["differences"])
         self.assertTrue(both["effects"]["against"]["on"])
         self.assertFalse(both["effects"]["motion_blur"]["on"])

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/failure.h"
 #include "hand_made_scene.h"
@@ -55,6 +56,35 @@ TEST(Painter, DrawsAnOpaquePictureThatIsNotBlank) {
     EXPECT_LT(darkest, 60);
     EXPECT_GT(lightest, 180);
     EXPECT_LT(lightest, 255) << "white is clipped";
+}
+
+TEST(Painter, OneProgramForAllStylesDrawsTheSamePixels) {
+    HandMadeScene scene = floor_scene();
+    scene.surface(BoxShape{Vec3(0, -0.6, 0.05), Vec3(2.4, 0.05, 0.1), Quat::Identity()},
+                  scene.look(LookStyle::kPlain, {0.5, 0.4, 0.3}));
+    constexpr int kStyles = 7;  // kPlain ... kTableTennis
+    for (int i = 0; i < kStyles; ++i) {
+        const int look = scene.look(static_cast<LookStyle>(i), {0.8, 0.5, 0.2}, {0.1, 0.2, 0.5});
+        scene.ball({0.32 * i - 0.96, 0.1 * (i % 3), 0.3}, 0.15, look);
+    }
+    const auto painted = [&](bool few_pictures) {
+        PainterOptions options{2 * kWidth, 2 * kHeight};
+        options.few_pictures = few_pictures;
+        Image image;
+        Painter(scene.scene, scene.motion, options).paint(0, image);
+        return image;
+    };
+    const Image each = painted(false), all = painted(true);
+    EXPECT_EQ(differing_pixels(each, all), 0);
+
+    // Every style is in the picture: without it, some pixels change.
+    for (Ball& ball : scene.scene.balls) {
+        const int look = std::exchange(ball.look, 0);
+        const int changed = differing_pixels(each, painted(true));
+        fmt::print("ball {}: {} pixels\n", ball.name, changed);
+        EXPECT_GT(changed, 300);
+        ball.look = look;
+    }
 }
 
 TEST(Painter, SameInstantGivesSameBytesInAnyOrder) {

@@ -70,6 +70,13 @@ TEST(SceneDifferences, ValuesWithTheirDefaults) {
               found(kScene, kScene, {{"balls.a.velocity", "[1, 0, 0]"}, {"balls.a.mass", "2"}}));
 }
 
+// The method `exact` has no step: none is shown for it.
+TEST(SceneDifferences, StepsAreThoseOfTheMethodThatHasThem) {
+    EXPECT_EQ((Texts{"simulation.method: exact | fixed", "simulation.step: \u2013 | 0.02"}),
+              found(kScene, kScene, {{"simulation.method", "fixed"}, {"simulation.step", "0.02"}}));
+    EXPECT_EQ(Texts{}, found(kScene, kScene, {{"simulation.step", "0.02"}}));
+}
+
 // What a preset or a virtual body implies is said in numbers.
 TEST(SceneDifferences, PresetsAndVirtualBodies) {
     const std::string ball =

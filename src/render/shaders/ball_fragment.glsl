@@ -76,8 +76,8 @@ float seen_part(vec3 u, vec3 d, float pixel) {
 }
 #endif
 
-// Light on the point with normal n (view space) of a body of the given colour.
-vec3 lit(vec3 body, vec3 n, vec3 d_unit, float blur) {
+// Light on the point with normal n (view space) of a body of the given colour and gloss.
+vec3 lit(vec3 body, vec2 gloss, vec3 n, vec3 d_unit, float blur) {
     float key = v_row_x.w, open = 1.0;
 #ifndef GHOST
     for (int i = 0; i < v_casters.y; ++i) {
@@ -97,7 +97,7 @@ vec3 lit(vec3 body, vec3 n, vec3 d_unit, float blur) {
 
     vec3 light = kKey * (key * max(dot(n, u_light), 0.0)) + ambient_light(n) * open;
     float shine = max(dot(n, normalize(u_light - d_unit)), 0.0);
-    return body * light + kKey * (kGloss.y * key * pow(shine, kGloss.x));
+    return body * light + kKey * (gloss.y * key * pow(shine, gloss.x));
 }
 
 // Vector from the centre to the nearest point of a ray, and that point's depth; in radii.
@@ -165,9 +165,10 @@ void main() {
         float reach = part * pixel_in_radii(t);
         vec3 nx = reach * (vec3(1, 0, 0) + d_unit * (u.x / h - d_unit.x));
         vec3 ny = reach * (vec3(0, 1, 0) + d_unit * (u.y / h - d_unit.y));
-        vec3 body = marking(n * view_from_ball, nx * view_from_ball, ny * view_from_ball);
+        vec2 gloss;
+        vec3 body = marking(n * view_from_ball, nx * view_from_ball, ny * view_from_ball, gloss);
         float counts = out_by < 1.0 ? 1.0 : 1e-3;
-        color += counts * min(lit(body, n, d_unit, scale), 1.0);
+        color += counts * min(lit(body, gloss, n, d_unit, scale), 1.0);
         weight += counts;
         depth = v_ray.w * t;
     }

@@ -1,17 +1,10 @@
-// What is painted on a ball. STYLE is the number of a LookStyle (scene/scene.h).
+// What is painted on a ball. STRIPED, BASKETBALL and so on are defined for the styles that a program
+// draws; SEVERAL_STYLES where it is more than one.
 //
 // p is a point of the unit sphere in the ball's own axes; px and py are how far p moves from pixel to
 // pixel. Every border is a function f of p that is 0 there; f / (extent of f in a pixel) is its
 // distance in pixels, from which follows the part of the pixel on either side. So a marking fades
 // into its mean colour with distance, and never flickers.
-
-#define PLAIN 0
-#define STRIPED 1
-#define BASKETBALL 2
-#define VOLLEYBALL 3
-#define FOOTBALL 4
-#define TENNIS 5
-#define TABLE_TENNIS 6
 
 flat in vec3 v_color;   // the look's main colour
 flat in vec3 v_second;  // its second one
@@ -41,27 +34,20 @@ float spot(vec3 p, vec3 center, float radius, vec3 px, vec3 py) {
     return above(radius - d, extent(off / max(d, 1e-4), px, py));
 }
 
-#if STYLE == PLAIN
-
-vec3 marking(vec3 p, vec3 px, vec3 py) { return v_color; }
-const vec2 kGloss = vec2(48.0, 0.10);  // exponent and strength of the highlight
-
-#elif STYLE == STRIPED
-
+#ifdef STRIPED
 // A broad band, and a narrow one across it, so that no axis of spin goes unseen.
-vec3 marking(vec3 p, vec3 px, vec3 py) {
+vec3 striped(vec3 p, vec3 px, vec3 py) {
     float broad = band(p.x, 0.27, extent(vec3(1, 0, 0), px, py));
     float narrow = band(p.z, 0.07, extent(vec3(0, 0, 1), px, py));
     return mix(v_color, v_second, max(broad, narrow));
 }
-const vec2 kGloss = vec2(48.0, 0.10);
+#endif  // STRIPED
 
-#elif STYLE == BASKETBALL
-
+#ifdef BASKETBALL
 // Eight panels: two great circles that cross, and on either side a closed oval seam. The oval
 // |x| = 0.47 + 0.6 z^2 reaches 62 degrees from the pole of x along the equator and 42 towards z, as
 // on the balls of the trade.
-vec3 marking(vec3 p, vec3 px, vec3 py) {
+vec3 basketball(vec3 p, vec3 px, vec3 py) {
     const float kSeam = 0.021;  // half width, radians: 5 mm on a ball of 12 cm
     float seam = max(band(p.z, kSeam, extent(vec3(0, 0, 1), px, py)),
                      band(p.x, kSeam, extent(vec3(1, 0, 0), px, py)));
@@ -77,10 +63,9 @@ vec3 marking(vec3 p, vec3 px, vec3 py) {
     vec3 leather = v_color * (1.0 + 0.16 * fade * relief);
     return mix(leather, v_second, seam);
 }
-const vec2 kGloss = vec2(14.0, 0.05);
+#endif  // BASKETBALL
 
-#elif STYLE == VOLLEYBALL
-
+#ifdef VOLLEYBALL
 // 18 panels: six faces of three strips, the strips of neighbouring faces across one another. The
 // middle strip of a face has the main colour, the outer ones the second colour and yellow.
 const vec3 kYellow = vec3(0.85, 0.52, 0.035);
@@ -106,7 +91,7 @@ vec3 face_of(int k, vec3 p, vec3 px, vec3 py, out float seam) {
     return face(dot(p, next), next, abs(dot(p, axis)), sign_facing * axis, px, py, seam);
 }
 
-vec3 marking(vec3 p, vec3 px, vec3 py) {
+vec3 volleyball(vec3 p, vec3 px, vec3 py) {
     vec3 a = abs(p);
     int first = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
     float second_a = first == 0 ? max(a.y, a.z) : (first == 1 ? max(a.x, a.z) : max(a.x, a.y));
@@ -127,10 +112,9 @@ vec3 marking(vec3 p, vec3 px, vec3 py) {
     seam = max(mix(other_seam, seam, mine), band(f, 0.012, width));
     return color * (1.0 - 0.72 * seam);
 }
-const vec2 kGloss = vec2(24.0, 0.06);
+#endif  // VOLLEYBALL
 
-#elif STYLE == FOOTBALL
-
+#ifdef FOOTBALL
 // Truncated icosahedron: 12 pentagons in the second colour, 20 hexagons in the first. On the sphere
 // its edges are great circles: the border of two hexagons lies midway between their centres f, that
 // of a hexagon and a pentagon where p . (f - k v) = 0, v the pentagon's centre. p is folded into
@@ -145,7 +129,7 @@ void nearer(vec3 f, vec3 p, inout vec3 first, inout float best, inout vec3 secon
     best = max(best, x);
 }
 
-vec3 marking(vec3 p, vec3 px, vec3 py) {
+vec3 football(vec3 p, vec3 px, vec3 py) {
     const float g = 1.6180339887, s = 0.57735026919;  // golden section, 1 / sqrt(3)
     const float a = 0.52573111212, b = 0.85065080835;  // 1 and g over sqrt(1 + g^2)
     const float k = 0.97415421;  // the edge of the solid lies at this ratio of the two projections
@@ -176,12 +160,11 @@ vec3 marking(vec3 p, vec3 px, vec3 py) {
     vec3 grey = mix(v_color, v_second, 0.72);
     return mix(mix(v_color, grey, max(seam, rim * 0.8)), v_second, black);
 }
-const vec2 kGloss = vec2(32.0, 0.08);
+#endif  // FOOTBALL
 
-#elif STYLE == TENNIS
-
+#ifdef TENNIS
 // Felt, and one closed curve: z = 2.1 (y^2 - x^2) on the sphere, which winds as the seam does.
-vec3 marking(vec3 p, vec3 px, vec3 py) {
+vec3 tennis(vec3 p, vec3 px, vec3 py) {
     const float kBend = 2.1;
     float f = p.z + kBend * (p.x * p.x - p.y * p.y);
     vec3 gradient = vec3(2.0 * kBend * p.x, -2.0 * kBend * p.y, 1.0);
@@ -194,12 +177,11 @@ vec3 marking(vec3 p, vec3 px, vec3 py) {
                  sin(p.z * kFibres + 3.0 * p.x);
     return mix(v_color * (1.0 + 0.10 * fade * felt), v_second, line);
 }
-const vec2 kGloss = vec2(4.0, 0.0);
+#endif  // TENNIS
 
-#elif STYLE == TABLE_TENNIS
-
+#ifdef TABLE_TENNIS
 // A maker's mark on two sides: three dots over a bar.
-vec3 marking(vec3 p, vec3 px, vec3 py) {
+vec3 table_tennis(vec3 p, vec3 px, vec3 py) {
     vec3 q = vec3(abs(p.x), p.y, p.z);
     vec3 qx = vec3(p.x < 0.0 ? -px.x : px.x, px.yz), qy = vec3(p.x < 0.0 ? -py.x : py.x, py.yz);
     float mark = spot(q, normalize(vec3(1.0, 0.0, 0.26)), 0.115, qx, qy);
@@ -210,6 +192,53 @@ vec3 marking(vec3 p, vec3 px, vec3 py) {
                 above(q.x, extent(vec3(1, 0, 0), qx, qy));
     return mix(v_color, v_second, max(mark, bar));
 }
-const vec2 kGloss = vec2(36.0, 0.08);
+#endif  // TABLE_TENNIS
 
+#ifdef SEVERAL_STYLES
+flat in float v_style;  // the number of a LookStyle (scene/scene.h)
+#define HAS_STYLE(number) (v_style == float(number))
+#else
+#define HAS_STYLE(number) true
 #endif
+
+// The colour at p; `gloss` is exponent and strength of the highlight.
+vec3 marking(vec3 p, vec3 px, vec3 py, out vec2 gloss) {
+    gloss = vec2(48.0, 0.10);
+    vec3 color = v_color;
+#ifdef STRIPED
+    if (HAS_STYLE(1)) {
+        color = striped(p, px, py);
+    }
+#endif
+#ifdef BASKETBALL
+    if (HAS_STYLE(2)) {
+        gloss = vec2(14.0, 0.05);
+        color = basketball(p, px, py);
+    }
+#endif
+#ifdef VOLLEYBALL
+    if (HAS_STYLE(3)) {
+        gloss = vec2(24.0, 0.06);
+        color = volleyball(p, px, py);
+    }
+#endif
+#ifdef FOOTBALL
+    if (HAS_STYLE(4)) {
+        gloss = vec2(32.0, 0.08);
+        color = football(p, px, py);
+    }
+#endif
+#ifdef TENNIS
+    if (HAS_STYLE(5)) {
+        gloss = vec2(4.0, 0.0);
+        color = tennis(p, px, py);
+    }
+#endif
+#ifdef TABLE_TENNIS
+    if (HAS_STYLE(6)) {
+        gloss = vec2(36.0, 0.08);
+        color = table_tennis(p, px, py);
+    }
+#endif
+    return color;
+}

@@ -9,7 +9,7 @@ in vec4 a_offset;   // centre - reference point, in radii
 in vec4 a_row_x;    // rows of ball-from-view; w: part of the key light that reaches the ball
 in vec4 a_row_y;
 in vec4 a_row_z;
-in vec4 a_color;
+in vec4 a_color;    // w: number of the style
 in vec4 a_second;
 in vec4 a_contact;  // towards the nearest surface, and how close it is
 
@@ -22,6 +22,9 @@ flat out vec3 v_color;
 flat out vec3 v_second;
 flat out vec4 v_contact;
 flat out ivec2 v_casters;
+#ifdef SEVERAL_STYLES
+flat out float v_style;
+#endif
 
 void main() {
     v_ray = a_ray;
@@ -33,6 +36,9 @@ void main() {
     v_second = a_second.rgb;
     v_contact = a_contact;
     v_casters = ivec2(a_bound.zw);
+#ifdef SEVERAL_STYLES
+    v_style = a_color.w;
+#endif
     float turn = (float(gl_VertexID) + 0.5) * 0.78539816339;
     vec2 pixel = a_bound.xy + a_axes.xy * cos(turn) + a_axes.zw * sin(turn);
     gl_Position = vec4(2.0 * pixel / u_size - 1.0, 0.0, 1.0);
