@@ -37,9 +37,9 @@ OverlayVerdict::OverlayVerdict(const Scene& scene, const Motion& motion,
                                const ReboundVerdict& verdict, int width_px, int height_px,
                                const std::vector<OverlayPainter::Rect>& taken,
                                const std::string& font_family, const Palette& palette)
-    : from_s_(std::max(
-          verdict.time_s,
-          motion_time(scene.film, film_time(scene.film, motion.duration) - kShown_s))) {
+    : from_s_(
+          std::max(verdict.time_s,
+                   motion_time(scene.film, film_time(scene.film, motion.duration) - kShown_s))) {
     const std::string word = verdict.passes ? "passes" : "does not pass";
     double letters = letters_px(kLettersPx, height_px);
     // Narrow pictures get smaller letters rather than a plate that hangs out.
