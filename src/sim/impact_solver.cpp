@@ -130,8 +130,9 @@ void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, Contact& c) con
         double share = 1;
         if (!c.other.is_surface) {
             ImpactBody& other = bodies[static_cast<std::size_t>(c.other.index)];
-            share = other.mass / (ball.mass + other.mass);
-            other.velocities.linear -= (1 - share) * change * c.normal;
+            const double both = ball.mass + other.mass;
+            share = other.mass / both;
+            other.velocities.linear -= ball.mass / both * change * c.normal;
         }
         ball.velocities.linear += share * change * c.normal;
         c.impulse = share * change * ball.mass;
