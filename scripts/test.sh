@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up a fresh machine with the test packages, then runs the tests: all in a release build, and
-# those from scene to motion and of the media with the address and undefined behaviour sanitizers.
+# those of simulation, drawing and media with the address and undefined behaviour sanitizers.
 # What takes longer is in scripts/test_long.sh.
 set -euo pipefail
 cd "$(dirname "$0")/.."
