@@ -1,10 +1,9 @@
 #include "render/picture_layer.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "core/check.h"
+#include "render/tile_program.h"
 
 namespace carom {
 
@@ -20,22 +19,9 @@ PictureLayer::PictureLayer(const Gl& gl, int width_px, int height_px)
     const Image empty(width_px, height_px);
     texture_ = make_texture(gl, GL_RGBA8, width_px, height_px, GL_BGRA, GL_UNSIGNED_BYTE,
                             empty.bgra.data());
-    GlProgram::Sources sources;
-    sources.name = "layer";
-    sources.vertex = assemble_shader({fmt::format("TILE_PX {}.0", kTilePx)}, {"tile_vertex"});
-    sources.fragment = assemble_shader({}, {"layer_fragment"});
-    sources.attributes = {"a_tile"};
-    sources.outputs = {"out_color"};
-    program_ = GlProgram(gl, sources);
-    program_.use();
-    gl.Uniform2f(program_.uniform("u_size"), static_cast<float>(width_px),
-                 static_cast<float>(height_px));
-    gl.Uniform1i(program_.uniform("u_layer"), 0);
-    gl.BindVertexArray(vertex_array_.name());
-    gl.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
-    gl.EnableVertexAttribArray(0);
-    gl.VertexAttribDivisor(0, 1);
-    gl.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+    program_ =
+        make_tile_program(gl, {"layer", "layer_fragment", "u_layer", width_px, height_px, kTilePx},
+                          vertex_array_, tile_buffer_);
     gl.check("preparing a layer");
 }
 

@@ -1,11 +1,10 @@
 #include "render/picture_mean.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
+#include "render/tile_program.h"
 
 namespace carom {
 
@@ -66,22 +65,9 @@ PictureMean::PictureMean(const Gl& gl, int width_px, int height_px)
     : gl_(&gl), width_px_(width_px), height_px_(height_px), vertex_array_(gl), tile_buffer_(gl) {
     sum_ = make_texture(gl, GL_RGBA32F, width_px, height_px, GL_RGBA, GL_FLOAT);
     framebuffer_ = make_framebuffer(gl, "the mean of pictures", {&sum_});
-    GlProgram::Sources sources;
-    sources.name = "mean of pictures";
-    sources.vertex = assemble_shader({fmt::format("TILE_PX {}.0", kTilePx)}, {"tile_vertex"});
-    sources.fragment = assemble_shader({}, {"mean_fragment"});
-    sources.attributes = {"a_tile"};
-    sources.outputs = {"out_color"};
-    program_ = GlProgram(gl, sources);
-    program_.use();
-    gl.Uniform2f(program_.uniform("u_size"), static_cast<float>(width_px),
-                 static_cast<float>(height_px));
-    gl.Uniform1i(program_.uniform("u_picture"), 0);
-    gl.BindVertexArray(vertex_array_.name());
-    gl.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
-    gl.EnableVertexAttribArray(0);
-    gl.VertexAttribDivisor(0, 1);
-    gl.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+    program_ = make_tile_program(
+        gl, {"mean of pictures", "mean_fragment", "u_picture", width_px, height_px, kTilePx},
+        vertex_array_, tile_buffer_);
     gl.check("preparing the mean of pictures");
 }
 
