@@ -62,6 +62,9 @@ int preset_material(Build& build, const std::string& preset_name);
 /// The look that a reference names; reports an unknown name and returns -1.
 int resolve_look(Build& build, const Node& reference);
 
+/// Index of the ball that a reference names; reports an unknown name and returns -1.
+int resolve_ball(Build& build, const Node& reference);
+
 /// The look of things that name none, made when it is first asked for. `purpose` tells them apart.
 int default_look(Build& build, const std::string& purpose, const Look& look);
 

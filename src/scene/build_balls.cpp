@@ -238,6 +238,18 @@ void BallBuilder::add(const Node& node) {
 
 }  // namespace
 
+int resolve_ball(Build& build, const Node& reference) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < build.scene.balls.size(); ++i) {
+        names.push_back(build.scene.balls[i].name);
+        if (names.back() == reference.text) return static_cast<int>(i);
+    }
+    build.report.error(reference,
+                       fmt::format("there is no ball {}{}", quoted_excerpt(reference.text),
+                                   suggestion(reference.text, names)));
+    return -1;
+}
+
 void build_balls(Build& build) {
     BallBuilder builder(build);
     for (const Node& node : build.entries("balls")) builder.add(node);

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "scene/build.h"
-#include "scene/scalar.h"
 
 namespace carom {
 
@@ -26,19 +25,6 @@ void check_view(Build& build, const Vec3& from, const Vec3& to, const Vec3& up_v
         build.report.error(up_node, fmt::format("the camera looks along 'up' ({}); give it another "
                                                 "'up', such as [0, 1, 0]",
                                                 up_from_file ? "from the file" : "[0, 0, 1]"));
-}
-
-/// Index of the ball that the camera follows; none, reported, if there is no such ball.
-std::optional<int> followed_ball(Build& build, const Node& reference) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < build.scene.balls.size(); ++i) {
-        names.push_back(build.scene.balls[i].name);
-        if (names.back() == reference.text) return static_cast<int>(i);
-    }
-    build.report.error(reference,
-                       fmt::format("there is no ball {}{}", quoted_excerpt(reference.text),
-                                   suggestion(reference.text, names)));
-    return std::nullopt;
 }
 
 void build_path(Build& build, const Fields& fields, Camera& camera) {
@@ -82,11 +68,12 @@ void build_camera(Build& build) {
     camera.orthographic_m = fields.maybe_number("orthographic");
     camera.orbit_deg_per_s = fields.number("orbit_deg_per_s");
     camera.smooth_s = fields.number("smooth_s");
-    if (const Node* ball = fields.find("follow"))
-        camera.follow = followed_ball(build, *ball);
-    else if (camera.smooth_s > 0)
+    if (const Node* ball = fields.find("follow")) {
+        if (const int index = resolve_ball(build, *ball); index >= 0) camera.follow = index;
+    } else if (camera.smooth_s > 0) {
         build.report.error(*fields.find("smooth_s"),
                            "'smooth_s' smooths what 'follow' follows, which is not given");
+    }
     if (has_path) {
         build_path(build, fields, camera);
     } else {

@@ -75,25 +75,12 @@ void read_text(Build& build, const Fields& fields) {
     }
 }
 
-/// Index of the ball that the plot names; -1, and a message, if there is none.
-int plotted_ball(Build& build, const Node& reference) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < build.scene.balls.size(); ++i) {
-        names.push_back(build.scene.balls[i].name);
-        if (names.back() == reference.text) return static_cast<int>(i);
-    }
-    build.report.error(reference,
-                       fmt::format("there is no ball {}{}", quoted_excerpt(reference.text),
-                                   suggestion(reference.text, names)));
-    return -1;
-}
-
 PlotOptions read_plot(Build& build, const Node& at, const Fields& fields) {
     constexpr std::size_t kMost = 12;  // curves that can be told apart
     PlotOptions plot;
     const Node* named = fields.find("ball");
     const auto add = [&](const Node& reference) {
-        const int ball = plotted_ball(build, reference);
+        const int ball = resolve_ball(build, reference);
         if (ball < 0) return;
         if (std::find(plot.balls.begin(), plot.balls.end(), ball) == plot.balls.end())
             plot.balls.push_back(ball);

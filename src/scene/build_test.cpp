@@ -1,28 +1,9 @@
 // The drop test of one ball.
 #include "scene/build.h"
 
-#include <fmt/format.h>
-
-#include "scene/scalar.h"
+#include <utility>
 
 namespace carom {
-
-namespace {
-
-/// Index of the ball that a test names; -1 if there is none.
-int tested_ball(Build& build, const Node& reference) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < build.scene.balls.size(); ++i) {
-        names.push_back(build.scene.balls[i].name);
-        if (names.back() == reference.text) return static_cast<int>(i);
-    }
-    build.report.error(reference,
-                       fmt::format("there is no ball {}{}", quoted_excerpt(reference.text),
-                                   suggestion(reference.text, names)));
-    return -1;
-}
-
-}  // namespace
 
 void build_test(Build& build) {
     const Node* node = build.root.find("test");
@@ -32,7 +13,7 @@ void build_test(Build& build) {
     const Node* ball = fields.find("ball");
     if (rebound == nullptr || ball == nullptr) return;  // reported by the validator
     ReboundTest test;
-    test.ball = tested_ball(build, *ball);
+    test.ball = resolve_ball(build, *ball);
     const Vec2 bounds = fields.vec2("rebound");
     test.low_m = bounds[0];
     test.high_m = bounds[1];
