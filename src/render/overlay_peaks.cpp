@@ -114,7 +114,9 @@ std::vector<PeakMark> lay_out_peaks(const Scene& scene, const Motion& motion, co
                            letters_px(scene.overlay.labels->size_px, view.height_px()));
     Placer placer(view, font, taken);
     std::vector<PeakMark> marks;
-    for (const auto& [ball, peak] : peaks_in_order(motion)) {
+    for (const auto& ranked : peaks_in_order(motion)) {
+        const int ball = ranked.ball;
+        const Peak& peak = ranked.peak;
         if (marks.size() == kMostMarks) break;
         const auto index = static_cast<std::size_t>(ball);
         const double radius = scene.balls[index].radius;

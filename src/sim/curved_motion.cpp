@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/failure.h"
+#include "sim/curve_fit.h"
 #include "sim/curved_crossing.h"
 
 namespace carom {
@@ -30,40 +31,6 @@ constexpr double kNoSlip = 1e-12;
 /// A piece whose error is too large is shortened, at most so many times.
 constexpr int kMostTries = 60;
 
-// ---- The polynomial
-// ------------------------------------------------------------------------------
-
-/// A vector function and its first two derivatives at one place.
-struct Node {
-    Vec3 value, rate, second;
-};
-
-/// The terms that take a parabola with the values of `begin` through `middle` and `end` too:
-/// Hermite's interpolation at u = 0, 1/2, 1 with two derivatives, solved for the powers 3 ... 8.
-Curve::Terms curve_through(const Node& begin, const Node& middle, const Node& end, double h) {
-    constexpr std::array<std::array<double, 6>, 6> kInverse = {
-        {{256, -32, 8, -58, 10, -0.5},
-         {-1536, 160, -56, 453, -79, 4},
-         {3840, -288, 152, -1374, 243, -12.5},
-         {-4864, 224, -200, 2012, -362, 19},
-         {3072, -64, 128, -1416, 260, -14},
-         {-768, 0, -32, 384, -72, 4}}};
-    const auto rest = [&](const Node& node, double u) -> std::array<Vec3, 3> {
-        const double s = u * h;
-        return {node.value - begin.value - s * (begin.rate + (0.5 * s) * begin.second),
-                h * (node.rate - begin.rate - s * begin.second),
-                (h * h) * (node.second - begin.second)};
-    };
-    const std::array<Vec3, 3> at_middle = rest(middle, 0.5), at_end = rest(end, 1);
-    Curve::Terms terms;
-    for (std::size_t i = 0; i < 6; ++i) {
-        terms[i] = Vec3::Zero();
-        for (std::size_t k = 0; k < 3; ++k)
-            terms[i] += kInverse[i][k] * at_middle[k] + kInverse[i][k + 3] * at_end[k];
-    }
-    return terms;
-}
-
 /// A course over some seconds as a piece that starts at 0, and how far it may be off.
 struct Fit {
     Piece piece;
@@ -71,12 +38,12 @@ struct Fit {
     double error = 0;  ///< as a multiple of what is allowed
 };
 
-Node place_node(const Course& course, const Numbers& y) {
+CurveNode place_node(const Course& course, const Numbers& y) {
     const CurvedState s = course.state(y);
     return {part(y, 0), s.v, course.forces(s).acceleration};
 }
 
-Node turn_node(const Course& course, const Numbers& y) {
+CurveNode turn_node(const Course& course, const Numbers& y) {
     const CurvedState s = course.state(y);
     const Vec3 u = part(y, 3);
     return {u, turn_rate(u, s.w), turn_second_rate(u, s.w, course.forces(s).spin_rate)};
@@ -91,7 +58,7 @@ Fit fit(const Course& course, double h) {
     Numbers end = middle;
     course.advance(end, 0.5 * h);
 
-    const Node place = place_node(course, begin), turn = turn_node(course, begin);
+    const CurveNode place = place_node(course, begin), turn = turn_node(course, begin);
     Curve curve;
     curve.seconds = h;
     curve.position = curve_through(place, place_node(course, middle), place_node(course, end), h);

@@ -152,7 +152,7 @@ void ExactRun::step_islands(const std::vector<int>& balls, double now) {
             continue;
         }
         if (island.size() == 1 && leave_island(island.front(), now)) continue;
-        step_island(island, now);
+        if (!integrate(island, now)) step_island(island, now);
     }
     for (const int ball : set) predict(ball, now);
 }

@@ -17,11 +17,21 @@ constexpr int kKindSteps = 3;
 
 /// Whether a contact of an island lasts: hardly a gap, and hardly a speed along the normal. What
 /// gravity does in one step is the finest that a step can tell.
-bool ExactRun::stays_together(const Contact& contact, double now) const {
+bool ExactRun::stays_together(const Contact& contact, double now) {
     if (!in_reach(contact)) return false;
     Vec3 v = world_.velocities(contact.ball, now).linear;
-    if (!contact.other.is_surface) v -= world_.velocities(contact.other.index, now).linear;
-    return std::abs(v.dot(contact.normal)) <= slow_speed(world_);
+    double still = kStillFraction * v.norm() + world_.ball(contact.ball).rounding_speed;
+    if (!contact.other.is_surface) {
+        const Vec3 other = world_.velocities(contact.other.index, now).linear;
+        v -= other;
+        still += kStillFraction * other.norm() + world_.ball(contact.other.index).rounding_speed;
+    }
+    const double speed = v.dot(contact.normal);
+    if (Parting* parting = parting_of(contact, now); parting != nullptr) {
+        if (speed < -still) parting->pressed = true;
+        if (!parting->pressed) return false;
+    }
+    return std::abs(speed) <= slow_speed(world_);
 }
 
 bool ExactRun::in_reach(const Contact& contact) const {

@@ -14,6 +14,9 @@ namespace {
 /// The grid is looked at again after so many events a ball.
 constexpr std::int64_t kEventsPerGrid = 16;
 
+/// An acceleration of this fraction of gravity is rounding.
+constexpr double kBalanced = 1e-11;
+
 /// It is built anew when its cells should be larger or smaller by this factor.
 constexpr double kMisfit = 1.5;
 
@@ -235,6 +238,22 @@ bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
     return true;
 }
 
+/// Two that have just parted, but go on to touch: rounding alone says that they press.
+bool ExactRun::rests_against(int ball, const Partner& partner, double now) {
+    const Contact c = world_.contact_at(ball, partner, now);
+    if (parting_of(c, now) == nullptr) return false;
+    Vec3 a = world_.ball(c.ball).piece.acceleration_at(now);
+    if (!c.other.is_surface) a -= world_.ball(c.other.index).piece.acceleration_at(now);
+    return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
+}
+
+/// What touches will go on to do so.
+void ExactRun::press(int ball, const Partner& partner, double now) {
+    Parting* parting = parting_of(world_.contact_at(ball, partner, now), now);
+    if (parting != nullptr) parting->pressed = true;
+    join_at_once(ball, now);
+}
+
 /// The ball is in a contact without a closed form: its island takes a step at once.
 void ExactRun::join_at_once(int ball, double now) {
     join(ball, now, world_.velocities(ball, now));
@@ -249,13 +268,16 @@ void ExactRun::join_at_once(int ball, double now) {
 void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi, bool touching,
                       double separation, double from, double now) {
     if (toi.state == ImpactState::kMiss) return;
-    if (toi.state == ImpactState::kPressed) return join_at_once(ball, now);
+    if (toi.state == ImpactState::kPressed) {
+        if (!rests_against(ball, partner, now)) press(ball, partner, now);
+        return;
+    }
     if (toi.state == ImpactState::kCapped) refuse("time of impact not found", ball, partner, now);
     if (touching && toi.s > 0) {
         const double hop = 0.25 * toi.s * separation;
         const Contact contact = world_.contact_at(ball, partner, from);
         if (contact.restitution < 1 && hop < hop_limit(ball, world_.position(ball, from)))
-            return join_at_once(ball, now);
+            return press(ball, partner, now);
     }
     Prediction& next = next_[static_cast<std::size_t>(ball)];
     const double time = std::max(from + toi.s, now);

@@ -16,6 +16,7 @@
 #include "sim/exact_world.h"
 #include "sim/impact_solver.h"
 #include "sim/island_solver.h"
+#include "sim/linked_motion.h"
 #include "sim/links.h"
 #include "sim/simulate.h"
 
@@ -90,6 +91,8 @@ class ExactRun {
 
     // Islands of lasting contacts that ODE steps: exact_islands.cpp and exact_links.cpp.
     void join(int ball, double now, const Velocities& velocities);
+    bool rests_against(int ball, const Partner& partner, double now);
+    void press(int ball, const Partner& partner, double now);
     void join_at_once(int ball, double now);
     std::vector<Contact> linked_contacts(const std::vector<Contact>& seeds, double now) const;
     bool in_island(const Cluster& cluster) const;
@@ -101,12 +104,41 @@ class ExactRun {
     bool leave_island(int ball, double now);
     void fall_asleep(const std::vector<int>& balls, double now, double calm_speed);
     bool in_reach(const Contact& contact) const;
-    bool stays_together(const Contact& contact, double now) const;
+    bool stays_together(const Contact& contact, double now);
     std::vector<int> link_neighbours(std::vector<int> balls, double now);
     void link_near(int ball, double now, const std::vector<Link>& before);
     void note_link(Link& link, const Contact& contact, bool calm, double calm_speed, double now);
     void note_departures(int ball, const std::vector<Link>& before, double now);
     void row_of(const Contact& contact, EventKind kind, double now);
+
+    // Small islands whose contacts all last, integrated: exact_linked.cpp.
+    /// Two that touch, but do not press any more.
+    struct Parting {
+        int ball = -1;
+        Partner partner;
+        double time = 0;       ///< s
+        bool pressed = false;  ///< they do, as their paths say: no parting
+    };
+    struct PieceGuess {
+        double seconds = 0;         ///< a good length for the next piece ...
+        std::uint64_t modes = 0;    ///< ... while contacts and modes are these
+        int short_pieces = 0;       ///< on end, shorter than a step
+        double stepped_until = -1;  ///< s
+    };
+    struct LinkedIsland {
+        LinkedBalls system;
+        LinkedState state;
+        std::vector<Contact> contacts;  ///< in the order of the system's
+    };
+    bool linked_system(const std::vector<int>& island, double now, LinkedIsland& is) const;
+    void unlink(const Contact& contact, double now);
+    Parting* parting_of(const Contact& contact, double now);
+    bool integrate(const std::vector<int>& island, double now);
+    LinkedPiece piece_of(int first_ball, double now, LinkedIsland& is, LinkedForces& forces);
+    void begin_pieces(const std::vector<int>& island, double now, const LinkedIsland& is,
+                      const LinkedPiece& piece, double rounding_speed);
+    bool has_slowed_down(const std::vector<int>& island, double now, double seconds);
+    void note_forces(const LinkedIsland& is, const LinkedForces& forces, bool still, double now);
 
     // Crowds: exact_crowd.cpp.
     bool meets_crowd(const Prediction& p) const;
@@ -141,8 +173,10 @@ class ExactRun {
     Motion motion_;
     SimulationReport report_;
     std::uint64_t next_stamp_ = 1;
-    std::map<int, CurvedPhase> curved_;  ///< by ball
-    std::vector<Prediction> next_;       ///< per ball
+    std::map<int, CurvedPhase> curved_;      ///< by ball
+    std::map<int, PieceGuess> piece_guess_;  ///< of an integrated island, by its first ball
+    std::vector<Parting> partings_;          ///< of this instant, and of the ends of pieces
+    std::vector<Prediction> next_;           ///< per ball
     std::int64_t events_of_grid_ = 0;
     Meeting meeting_;
     std::size_t awake_ = 0;  ///< a ball that was not at rest when last looked at

@@ -15,6 +15,7 @@ struct Link {
     Partner partner;
     Vec3 push =
         Vec3::Zero();  ///< impulse of the last step on the scene's first ball of the two, N s
+    bool slip_begins = false;  ///< integrated, and its slip is incipient
     // What the rows of EVENTS.csv say about it, kept with the ball that the scene names first.
     Contact last;  ///< as it was when it last pressed
     bool pressed = false;

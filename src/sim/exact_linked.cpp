@@ -1,0 +1,245 @@
+// Small islands whose contacts all last: integrated, instead of stepped by ODE.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/exact_run.h"
+#include "sim/island_step.h"
+#include "sim/linked_modes.h"
+#include "sim/linked_motion.h"
+#include "sim/linked_steady.h"
+
+namespace carom {
+
+namespace {
+
+/// What comes to no rest by itself, such as a ball that rocks in a groove, is laid to rest when
+/// for so long nothing has been faster than this fraction of g h, h a step.
+constexpr double kSlowFraction = 2e-2;
+constexpr double kSlowSeconds = 2;
+
+/// At rest gravity sets nothing in motion but roundings, as fractions of g and of the speeds.
+constexpr double kBalanced = 1e-12;
+
+/// Integrated velocities leave this fraction of the speeds of a 0.
+constexpr double kRoundingSpeed = 1e-11;
+
+/// An island whose laws change all the time, as between balls that are being poured, is stepped for
+/// a while: so many pieces on end are shorter than a step.
+constexpr int kMostShortPieces = 100;
+constexpr double kRestlessSeconds = 0.1;
+
+EventKind kind_of(CurvedMode mode) {
+    return mode == CurvedMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
+}
+
+/// All contacts and their modes as one number.
+std::uint64_t modes_of(const LinkedBalls& system) {
+    std::uint64_t modes = system.ball_count;
+    for (std::size_t i = 0; i < system.contact_count; ++i) {
+        const LinkedContact& c = system.contacts[i];
+        modes = 64 * modes + 16 * static_cast<std::uint64_t>(c.ball) +
+                4 * static_cast<std::uint64_t>(c.other + 1) + static_cast<std::uint64_t>(c.mode);
+    }
+    return modes;
+}
+
+bool is_still(const LinkedBalls& system, const LinkedState& state, const LinkedForces& forces) {
+    const double speed = kBalanced * speed_of(system, {});
+    const double pull = kBalanced * system.gravity.norm();
+    for (std::size_t b = 0; b < system.ball_count; ++b)
+        if (state[b].v.norm() > speed || forces.acceleration[b].norm() > pull ||
+            system.balls[b].radius * forces.spin_rate[b].norm() > pull)
+            return false;
+    return std::all_of(
+        system.contacts.begin(), system.contacts.begin() + system.contact_count,
+        [](const LinkedContact& c) { return !c.presses || c.mode != CurvedMode::kSliding; });
+}
+
+}  // namespace
+
+/// The island as a system of its own. False if it is too large, or not together.
+bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedIsland& is) const {
+    if (island.size() > kMostLinkedBalls || world_.scene.simulation.gravity.isZero(0)) return false;
+    LinkedBalls& system = is.system;
+    system.gravity = world_.scene.simulation.gravity;
+    system.ball_count = island.size();
+    const auto place = [&island](int ball) {
+        return static_cast<int>(std::find(island.begin(), island.end(), ball) - island.begin());
+    };
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        const ExactBall& body = world_.ball(island[b]);
+        system.balls[b] = {body.radius, body.mass, body.inertia_factor};
+        const Velocities velocities = world_.velocities(island[b], now);
+        is.state[b] = {world_.position(island[b], now), velocities.linear, velocities.spin};
+        for (const Link& link : links_.of(island[b])) {
+            const Contact c = world_.contact_at(island[b], link.partner, now);
+            if (c.ball != island[b]) continue;
+            if (system.contact_count == kMostLinkedContacts || -c.depth < -kLinkGap * body.radius)
+                return false;
+            LinkedContact& contact = system.contacts[system.contact_count++];
+            contact.ball = place(c.ball);
+            contact.friction = c.friction;
+            if (link.slip_begins) contact.mode = CurvedMode::kIncipient;
+            if (c.other.is_surface) {
+                contact.feature = curved_contact(world_.surface(c.other.index).shape, is.state[b].x,
+                                                 tangential_part(velocities.linear, c.normal),
+                                                 body.radius, system.gravity);
+            } else {
+                contact.other = place(c.other.index);
+                contact.feature.distance = body.radius + world_.ball(c.other.index).radius;
+            }
+            is.contacts.push_back(c);
+        }
+    }
+    return true;
+}
+
+/// Of two that do not press any more: they have parted.
+void ExactRun::unlink(const Contact& c, double now) {
+    partings_.push_back({c.ball, c.other, now});
+    const Link* link = links_.find(c.ball, c.other);
+    if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
+        row_of(c, EventKind::kLeave, now);
+    const auto forget = [this](int ball, const Partner& partner) {
+        std::erase_if(links_.of(ball), [&](const Link& l) { return l.partner == partner; });
+        world_.ball(ball).steps = std::max(world_.ball(ball).steps, 1);
+    };
+    forget(c.ball, c.other);
+    if (!c.other.is_surface) forget(c.other.index, {false, c.ball});
+}
+
+ExactRun::Parting* ExactRun::parting_of(const Contact& contact, double now) {
+    const auto found = std::find_if(partings_.begin(), partings_.end(), [&](const Parting& p) {
+        return p.time == now && p.ball == contact.ball && p.partner == contact.other;
+    });
+    return found == partings_.end() ? nullptr : &*found;
+}
+
+/// The next pieces of the balls of a small island, all of the same length; or some of its contacts
+/// part now. False where it has to be stepped.
+bool ExactRun::integrate(const std::vector<int>& island, double now) {
+    LinkedIsland is;
+    if (!linked_system(island, now, is)) return false;
+    if (island.size() == 1 && is.contacts.size() < 2) return false;
+    const LinkedForces before = linked_forces(is.system, is.state);
+    const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
+    if (!choose_modes(is.system, is.state)) return false;
+    bool parted = false;
+    LinkedForces forces = linked_forces(is.system, is.state);
+    for (std::size_t i = 0; i < is.contacts.size(); ++i) {
+        if (is.system.contacts[i].presses) continue;
+        const Parting* parting = parting_of(is.contacts[i], now);
+        // What still approaches is left to a step.
+        if (before.contacts[i].speed < -rounding_speed || (parting != nullptr && parting->pressed))
+            return false;
+        if (is_idle(is.system, forces.contacts[i])) continue;
+        unlink(is.contacts[i], now);
+        parted = true;
+    }
+    LinkedPiece piece;
+    if (parted) {  // what is left of the island is due again
+        begin_pieces(island, now, is, piece, rounding_speed);
+        return true;
+    }
+    const bool still = is_still(is.system, is.state, forces);
+    if (!still) piece = piece_of(island.front(), now, is, forces);
+    if (!still && !(piece.seconds > 0)) return false;
+    begin_pieces(island, now, is, piece, rounding_speed);
+    note_forces(is, forces, still, now);
+    std::erase_if(partings_, [now](const Parting& p) { return p.time < now; });
+    if (still || has_slowed_down(island, now, piece.seconds)) fall_asleep(island, now, 0);
+    return true;
+}
+
+/// A piece of no length is one at rest.
+void ExactRun::begin_pieces(const std::vector<int>& island, double now, const LinkedIsland& is,
+                            const LinkedPiece& piece, double rounding_speed) {
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        ExactBall& ball = world_.ball(island[b]);
+        BallState at = world_.state(island[b], now);
+        at.position = is.state[b].x;
+        at.velocity = is.state[b].v;
+        at.spin = is.state[b].w;
+        ++ball.steps;
+        ball.rounding_speed = rounding_speed;
+        ball.phase_end = now + piece.seconds;
+        ball.stepped = true;
+        begin_piece(island[b], now, at, piece.balls[b].acceleration, piece.balls[b].spin_rate,
+                    piece.seconds > 0 && piece.curved ? OptionalCurve(piece.balls[b].curve)
+                                                      : OptionalCurve());
+    }
+}
+
+/// The next piece; of no length where the island has to be stepped.
+LinkedPiece ExactRun::piece_of(int first_ball, double now, LinkedIsland& is, LinkedForces& forces) {
+    if (std::optional<LinkedPiece> steady =
+            steady_piece(is.system, is.state, forces, now, end_ - now))
+        return *steady;
+    PieceGuess& guess = piece_guess_[first_ball];
+    if (now < guess.stepped_until) return {};
+    const std::uint64_t modes = modes_of(is.system);
+    LinkedPiece piece =
+        next_piece(is.system, is.state, now, guess.modes == modes ? guess.seconds : 0);
+    // What ends at once is over.
+    for (std::size_t i = 0; i < 2 * is.contacts.size() && piece.seconds == 0; ++i) {
+        if (piece.end == LinkedEnd::kParts) {
+            is.system.contacts[piece.contact].presses = false;
+        } else if (piece.end != LinkedEnd::kGripEnds ||
+                   !begin_slip(is.system, is.state, piece.contact)) {
+            return {};
+        }
+        forces = linked_forces(is.system, is.state);
+        if (!is.system.contacts[piece.contact].presses &&
+            !is_idle(is.system, forces.contacts[piece.contact]))
+            return {};
+        piece = next_piece(is.system, is.state, now, 0);
+    }
+    guess.seconds = piece.next_seconds;
+    guess.modes = modes;
+    guess.short_pieces = piece.seconds < kIslandStep ? guess.short_pieces + 1 : 0;
+    if (guess.short_pieces > kMostShortPieces) {
+        guess.short_pieces = 0;
+        guess.stepped_until = now + kRestlessSeconds;
+    }
+    return piece;
+}
+
+/// Whether the island has hardly moved for long, `seconds` of it ahead.
+bool ExactRun::has_slowed_down(const std::vector<int>& island, double now, double seconds) {
+    const double slow = kSlowFraction * slow_speed(world_);
+    const bool calm = std::all_of(island.begin(), island.end(), [&](int ball) {
+        return world_.velocities(ball, now).linear.norm() <= slow &&
+               world_.velocities(ball, now + seconds).linear.norm() <= slow;
+    });
+    bool long_enough = calm;
+    for (const int ball : island) {
+        ExactBall& b = world_.ball(ball);
+        b.slow_steps = calm ? b.slow_steps + static_cast<int>(seconds / kIslandStep) + 1 : 0;
+        long_enough = long_enough && b.slow_steps * kIslandStep >= kSlowSeconds;
+    }
+    return long_enough;
+}
+
+/// What the rows say about the contacts, whose kinds are known.
+void ExactRun::note_forces(const LinkedIsland& is, const LinkedForces& forces, bool still,
+                           double now) {
+    for (std::size_t i = 0; i < is.contacts.size(); ++i) {
+        const Contact& contact = is.contacts[i];
+        const LinkedContactForces& at = forces.contacts[i];
+        const CurvedMode mode = is.system.contacts[i].mode;
+        for (Link& link : links_.of(contact.ball)) {
+            if (link.partner != contact.other) continue;
+            link.push = kIslandStep * (at.push * at.normal + at.friction);
+            link.pressed = is.system.contacts[i].presses;
+            link.slip_begins = mode == CurvedMode::kIncipient;
+            if (!link.pressed) continue;
+            link.last = contact;
+            if (still || kind_of(mode) == link.stated) continue;
+            if (!link.from_start) row_of(contact, kind_of(mode), now);
+            link.from_start = false;
+            link.stated = link.candidate = kind_of(mode);
+        }
+    }
+}
+
+}  // namespace carom
