@@ -25,8 +25,8 @@ constexpr double kRoundingSpeed = 1e-11;
 
 /// An island whose laws change all the time, as between balls that are being poured, is stepped for
 /// a while: so many pieces on end are shorter than a step.
-constexpr int kMostShortPieces = 100;
-constexpr double kRestlessSeconds = 0.1;
+constexpr int kMostShortPieces = 60;
+constexpr double kRestlessSeconds = 0.25;
 
 EventKind kind_of(CurvedMode mode) {
     return mode == CurvedMode::kRolling ? EventKind::kRoll : EventKind::kSlide;

@@ -16,7 +16,7 @@ namespace odeint = boost::numeric::odeint;
 constexpr double kStepError = 1e-13;
 
 /// Evaluations of the laws in a part of a piece; where more are needed a shorter piece is.
-constexpr int kMostEvaluations = 4'000;
+constexpr int kMostEvaluations = 1'000;
 
 void set_part(LinkedNumbers& y, std::size_t ball, std::size_t i, const Vec3& v) {
     for (std::size_t k = 0; k < 3; ++k) y[12 * ball + 3 * i + k] = v[static_cast<Eigen::Index>(k)];

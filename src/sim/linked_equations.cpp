@@ -1,7 +1,9 @@
 #include "sim/linked_equations.h"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
+#include <utility>
 
 namespace carom {
 
@@ -11,6 +13,9 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostFor
 
 /// Forces whose effects differ by no more than this fraction are the same one twice.
 constexpr double kRank = 1e-9;
+
+/// Where all pivots of scaled equations are larger, no force is undetermined.
+constexpr double kPivot = 1e-6;
 
 /// Of forces that the motion leaves undetermined, friction is held to be the dearer one: it acts
 /// only where a normal force alone would not do.
@@ -71,43 +76,54 @@ ForceSizes ForceEquations::solve(const ForceSizes& wanted) const {
     const auto size = static_cast<Eigen::Index>(count_);
     if (size == 0) return ForceSizes(0);
     // Scaled to 1 on the diagonal, so that masses of any ratio leave all digits.
-    ForceSizes scale(size), price(size);
+    ForceSizes scale(size);
     for (Eigen::Index i = 0; i < size; ++i) {
         const ForceRow& row = rows_[static_cast<std::size_t>(i)];
         scale[i] = 1 / std::sqrt(effect(static_cast<std::size_t>(i), row, row.along));
-        price[i] = scale[i] * (row.normal ? 1 : kFrictionIsDear);
     }
     Matrix effects(size, size);
     for (Eigen::Index k = 0; k < size; ++k) {
         const ForceRow& acts = rows_[static_cast<std::size_t>(k)];
         for (Eigen::Index i = 0; i < size; ++i)
             effects(i, k) =
-                scale[i] * effect(static_cast<std::size_t>(i), acts, acts.force) * price[k];
+                scale[i] * effect(static_cast<std::size_t>(i), acts, acts.force) * scale[k];
     }
-    Eigen::CompleteOrthogonalDecomposition<Matrix> solver(size, size);
-    solver.setThreshold(kRank);
-    solver.compute(effects);
     const ForceSizes target = wanted.cwiseProduct(scale);
-    ForceSizes scaled = solver.solve(target);
     // A heavy ball's forces leave a light one's only few digits: once more for what is missing.
-    const ForceSizes missing = target - effects * scaled;
-    scaled += solver.solve(missing);
-    return scaled.cwiseProduct(price);
+    const auto solved_by = [&](const auto& solver) {
+        const ForceSizes once = solver.solve(target);
+        return ForceSizes(once + solver.solve(target - effects * once));
+    };
+    const Eigen::PartialPivLU<Matrix> direct(effects);
+    if (direct.matrixLU().diagonal().cwiseAbs().minCoeff() > kPivot)
+        return solved_by(direct).cwiseProduct(scale);
+
+    ForceSizes price = ForceSizes::Ones(size);
+    for (Eigen::Index i = 0; i < size; ++i)
+        if (!rows_[static_cast<std::size_t>(i)].normal) price[i] = kFrictionIsDear;
+    effects = effects * price.asDiagonal();
+    Eigen::CompleteOrthogonalDecomposition<Matrix> least(size, size);
+    least.setThreshold(kRank);
+    least.compute(effects);
+    return solved_by(least).cwiseProduct(price).cwiseProduct(scale);
 }
 
 double ForceEquations::effect(std::size_t i, const ForceRow& acts, const Vec3& force) const {
     const ForceRow& seen = rows_[i];
     const LinkedContact& a = system_.contacts[seen.contact];
     const LinkedContact& b = system_.contacts[acts.contact];
-    const Vec3 torque = acts.n.cross(force);
-    double sum = 0;
+    double sum = 0, straight = 0, turned = 0;
+    bool known = false;
     for (const int ball : {a.ball, a.other}) {
         if (ball < 0 || (ball != b.ball && ball != b.other)) continue;
+        if (!std::exchange(known, true)) {
+            straight = seen.along.dot(force);
+            // e . ((n x f) x n'), multiplied out.
+            turned = acts.n.dot(seen.n) * straight - acts.n.dot(seen.along) * force.dot(seen.n);
+        }
         const LinkedBall& body = system_.balls[static_cast<std::size_t>(ball)];
         const double sign = (ball == a.ball) == (ball == b.ball) ? 1 : -1;
-        sum += (sign * seen.along.dot(force) +
-                seen.along.dot(torque.cross(seen.n)) / body.inertia_factor) /
-               body.mass;
+        sum += (sign * straight + turned / body.inertia_factor) / body.mass;
     }
     return sum;
 }

@@ -21,6 +21,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongestTurn = 0.7;
 constexpr double kSlipPart = 0.6;
 
+/// The first piece of a slip is no longer than so many of its times: explicit steps are.
+constexpr double kFirstPiece = 20;
+
 /// A piece whose error is too large is shortened, at most so many times.
 constexpr int kMostTries = 60;
 
@@ -115,6 +118,20 @@ double longest_piece(const LinkedCourse& course, const LinkedForces& f) {
             h = std::min(h, std::sqrt(2 * kLongestTurn / rate));
     }
     return h;
+}
+
+/// How fast the direction of a slip answers to what turns it, s: the smaller the slip, the stiffer.
+double slip_time(const LinkedCourse& course, const LinkedForces& f) {
+    const LinkedBalls& system = course.system();
+    double shortest = kInfinity;
+    for (std::size_t i = 0; i < system.contact_count; ++i) {
+        const LinkedContact& c = system.contacts[i];
+        if (!c.presses || c.mode != CurvedMode::kSliding) continue;
+        const double hold = f.contacts[i].friction.norm() * system.gravity.norm();
+        if (hold > 0)
+            shortest = std::min(shortest, f.contacts[i].slip.norm() * weight_at(system, c) / hold);
+    }
+    return shortest;
 }
 
 // ---- Where a piece ends
@@ -230,7 +247,8 @@ LinkedPiece next_piece(const LinkedBalls& system, const LinkedState& state, doub
     const LinkedForces forces = course.forces(state);
     LinkedPiece result;
     const double longest = longest_piece(course, forces);
-    double h = to_a_double(now, std::min(longest, guess > 0 ? guess : 0.25 * longest));
+    const double first = std::min(0.25 * longest, kFirstPiece * slip_time(course, forces));
+    double h = to_a_double(now, std::min(longest, guess > 0 ? guess : first));
     for (int tries = 0; tries < kMostTries && h > 0; ++tries) {
         try {
             Fit fitted = fit(course, h);
