@@ -1,4 +1,4 @@
-// Several contacts at once, and contacts with curved surfaces: H11, H17, H18, H22, H29, H30.
+// Several contacts at once, and contacts with curved surfaces: H11, H17, H18, H22, H29 to H31.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -108,6 +108,37 @@ Run off_a_sphere(double degrees) {
     return run;
 }
 
+/// Both are free on a smooth floor: momentum along x and energy give the angle's rate, and they
+/// part where that is sqrt(g cos / D).
+Run off_a_ball(double degrees, double below_mass) {
+    const double a = degrees * M_PI / 180, distance = 0.4, below = 0.3;
+    Run run;
+    run.overrides = {
+        set("balls.ball.position", Vec3(distance * std::sin(a), 0, below + distance * std::cos(a))),
+        set("balls.below.mass", below_mass)};
+    run.measure = [=](const Scene& scene, const Motion& motion) {
+        const double p = 1 / (1 + below_mass);
+        double low = 0, cosine = std::cos(a);  // of p c^3 - 3 c + 2 cos(a), which falls
+        for (int i = 0; i < 100; ++i) {
+            const double c = 0.5 * (low + cosine);
+            (p * c * c * c - 3 * c + 2 * std::cos(a) > 0 ? low : cosine) = c;
+        }
+        const double start = last_flight_start(scene, motion, 0);
+        double found = start;
+        if (std::isfinite(start)) {
+            const Vec3 apart =
+                motion.balls[0].at(start).position - motion.balls[1].at(start).position;
+            found = apart.z() / apart.norm();
+        }
+        const double along = std::sqrt(kG * distance * cosine) * cosine;
+        return Measures{relative(fmt::format("{:g}°, M/m = {:g}: part at cos", degrees, below_mass),
+                                 found, cosine),
+                        relative("speed of the lower ball, m/s",
+                                 -motion.balls[1].at(motion.duration).velocity.x(), p * along)};
+    };
+    return run;
+}
+
 Run off_an_edge(double v) {
     Run run;
     run.overrides = {set("balls.ball.velocity", Vec3(v, 0, 0))};
@@ -151,7 +182,12 @@ std::vector<Case> contact_cases() {
              "slides off an edge",
              "h30_off_an_edge",
              "cos θ = min(1, (2 + v²/gR)/3)",
-             {off_an_edge(0.5), off_an_edge(0.9), off_an_edge(2)}}};
+             {off_an_edge(0.5), off_an_edge(0.9), off_an_edge(2)}},
+            {"H31",
+             "slides off a ball that gives way",
+             "h31_off_a_ball",
+             "p cos³θ - 3 cos θ + 2 cos θ₀ = 0, p = m/(m + M)",
+             {off_a_ball(30, 1), off_a_ball(30, 5), off_a_ball(10, 0.2)}}};
 }
 
 }  // namespace carom::bench

@@ -160,6 +160,12 @@ SimulationResult ExactRun::finish() {
     motion_.peaks = find_peaks(world_.scene, motion_);
     report_.effects = effects_of(world_.scene, world_.pairs);
     report_.effects["pairs"] = {meeting_.possible, meeting_.why};
+    report_.effects["islands"] =
+        report_.integrated + report_.steps > 0
+            ? Effect{true, fmt::format("contacts act on each other: {} pieces integrated, {} steps "
+                                       "of ODE",
+                                       report_.integrated, report_.steps)}
+            : Effect{false, "no two lasting contacts of a ball at the same time"};
     return {std::move(motion_), std::move(report_)};
 }
 

@@ -146,6 +146,7 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     if (!still && !(piece.seconds > 0)) return false;
     begin_pieces(island, now, is, piece, rounding_speed);
     note_forces(is, forces, still, now);
+    ++report_.integrated;
     std::erase_if(partings_, [now](const Parting& p) { return p.time < now; });
     if (still || has_slowed_down(island, now, piece.seconds)) fall_asleep(island, now, 0);
     return true;

@@ -20,7 +20,8 @@ struct Effect {
 
 /// What the simulation did, for --stats.
 struct SimulationReport {
-    std::int64_t steps = 0;  ///< of ODE
+    std::int64_t steps = 0;       ///< of ODE
+    std::int64_t integrated = 0;  ///< pieces of balls that act on each other, by the method exact
     std::int64_t impacts = 0;
     std::map<std::string, Effect> effects;  ///< gravity, friction, spin, pairs, ...
 };
