@@ -11,8 +11,8 @@ import unittest
 from program import SOURCE, ProgramTest, run
 
 HARD = SOURCE / "scenes" / "hard"
-# One of each kind of motion: bounces, chains, stepped stacks, curved contacts, many balls.
-SCENES = ["h01_peaks", "h07_cradle", "h09_rack", "h11_groove", "h13_friction", "h17_stack", "h20_wall", "h28_slip_across"]
+# One of each kind of motion: bounces, chains, stepped stacks, curved contacts, balls that act on each other, many balls.
+SCENES = ["h01_peaks", "h07_cradle", "h09_rack", "h11_groove", "h13_friction", "h17_stack", "h20_wall", "h28_slip_across", "h31_off_a_ball"]
 
 POURED = """\
 carom: 1
@@ -42,7 +42,7 @@ class SameMotionTest(ProgramTest):
         return json.loads(path.read_text())
 
     def scenes(self):
-        return [HARD / f"{name}.yaml" for name in SCENES] + [self.write("poured.yaml", POURED)]
+        return [HARD / f"{name}.yaml" for name in SCENES] + [SOURCE / "scenes" / "gallery" / "ball_on_ball.yaml"] + [self.write("poured.yaml", POURED)]
 
     def test_twice_and_at_another_rate(self):
         for scene in self.scenes():

@@ -243,6 +243,46 @@ TEST(LinkedBalls, SlidesDownGroove) {
     EXPECT_LT((way - along.dot(way) * along).norm(), kBound);
 }
 
+// A third ball meets two that act on each other: momentum along the floor is kept through the
+// impact and all that follows, energy never rises, and nothing sinks in.
+TEST(LinkedBalls, HitFromOutside) {
+    for (const double restitution : {0.0, 0.5, 1.0})
+        for (const double time : {0.1, 0.15, 0.19}) {  // they part at 0.197 s
+            BallOnBall b = ball_on_ball(30, 0);
+            b.scene.pairs.front().restitution = restitution;
+            // It comes along the floor, without friction, and meets the lower ball.
+            add_ball(b.scene, Vec3(-0.55 - 2 * time, 0, 0.25), Vec3(2, 0, 0), 0.25).mass = 3;
+            const SimulationResult r = run(b.scene, 1);
+            const std::vector<Event> impacts = impacts_of(r.motion);
+            ASSERT_FALSE(impacts.empty());
+            const double hit = impacts.front().time;
+            EXPECT_LT(hit, 0.197);
+            const Vec3 start = momentum(b.scene, r.motion, 0);
+            double least = energy_of(b.scene, r.motion, 0), rise = 0, drift = 0, overlap = 0;
+            for (double t = 0; t <= 1; t += 1e-3) {
+                const double energy = energy_of(b.scene, r.motion, t);
+                rise = std::max(rise, energy - least);
+                least = std::min(least, energy);
+                const Vec3 p = momentum(b.scene, r.motion, t) - start;
+                drift = std::max({drift, std::abs(p.x()), std::abs(p.y())});
+                for (std::size_t i = 0; i < 3; ++i)
+                    for (std::size_t k = 0; k < i; ++k)
+                        overlap =
+                            std::max(overlap, b.scene.balls[i].radius + b.scene.balls[k].radius -
+                                                  (r.motion.balls[i].at(t).position -
+                                                   r.motion.balls[k].at(t).position)
+                                                      .norm());
+            }
+            std::printf(
+                "e %g, hit at %.4f s: momentum off by %.2g, energy rises by %.2g J, "
+                "overlap %.2g m, %lld steps\n",
+                restitution, hit, drift, rise, overlap, static_cast<long long>(r.report.steps));
+            EXPECT_LT(drift, 1e-10);
+            EXPECT_LT(rise, 1e-10);
+            EXPECT_LT(overlap, 1e-9);
+        }
+}
+
 // ---- The laws
 // --------------------------------------------------------------------------------------
 
