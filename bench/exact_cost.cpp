@@ -139,8 +139,9 @@ void gases() {
     double at_ten = 0;
     for (const int balls : {10, 100, 1000, 10'000}) {
         Scene scene = gas(balls);
-        scene.simulation.duration = balls < 10'000 ? 20'000.0 / balls : 10;
-        const Measured m = best_of(scene, balls < 1000 ? 5 : 2);
+        // At least 100 impacts a ball.
+        scene.simulation.duration = std::max(20'000.0 / balls, 30.0);
+        const Measured m = best_of(scene, balls < 1000 ? 5 : 3);
         const double cost = 1e6 * m.seconds / static_cast<double>(m.result.report.impacts);
         if (at_ten == 0) at_ten = cost;
         double before = 0, after = 0;

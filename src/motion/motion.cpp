@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 
@@ -73,7 +74,7 @@ const char* event_kind_name(EventKind kind) {
     return "";
 }
 
-void Trajectory::append(const Piece& piece) {
+void Trajectory::append(Piece piece) {
     if (!pieces_.empty()) {
         CAROM_CHECK(piece.start, >=, last_start_);
         if (piece.start == last_start_) pieces_.pop_back();
@@ -81,7 +82,7 @@ void Trajectory::append(const Piece& piece) {
     last_start_ = piece.start;
     if (pieces_.size() == pieces_.capacity())
         pieces_.reserve(std::max(kFirstPieces, 2 * pieces_.size()));
-    pieces_.push_back(piece);
+    pieces_.push_back(std::move(piece));
 }
 
 std::size_t Trajectory::piece_index(double t) const {

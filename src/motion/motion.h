@@ -108,7 +108,8 @@ struct Peak {
 class Trajectory {
   public:
     /// Starts must not decrease; a piece that starts where the last one does replaces it.
-    void append(const Piece& piece);
+    void append(Piece piece);
+    void reserve(std::size_t pieces) { pieces_.reserve(pieces); }
     BallState at(double t) const;
     const std::vector<Piece>& pieces() const { return pieces_; }
     /// Index of the piece that holds at t: the last one with start <= t.

@@ -38,11 +38,11 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
       links_(scene.balls.size()),
       crowd_(world_),
       due_(scene.balls.size()),
+      log_(scene.balls.size()),
       next_(scene.balls.size()),
       meeting_(meeting_of(scene, world_.pairs, end)),
       cluster_(world_),
-      seeds_(scene.balls.size()),
-      resolved_(scene.balls.size(), 0) {
+      seeds_(scene.balls.size()) {
     for (const Ball& b : scene.balls) motion_.ball_names.push_back(b.name);
     for (const Surface& s : scene.surfaces) motion_.surface_names.push_back(s.name);
     motion_.balls.resize(scene.balls.size());
@@ -157,6 +157,7 @@ bool ExactRun::all_at_rest() {
 }
 
 SimulationResult ExactRun::finish() {
+    log_.move_into(motion_.balls);
     motion_.peaks = find_peaks(world_.scene, motion_);
     report_.effects = effects_of(world_.scene, world_.pairs);
     report_.effects["pairs"] = {meeting_.possible, meeting_.why};
@@ -204,16 +205,18 @@ void ExactRun::happen(double now) {
     }
     const std::size_t met = seeds_.all().size();
     // What hangs on a link is met as well.
-    const auto linked = [this](const Contact& c) {
-        return !links_.of(c.ball).empty() ||
-               (!c.other.is_surface && !links_.of(c.other.index).empty());
+    const auto has_links = [this](int ball) {
+        return is_stepped(world_.ball(ball)) && !links_.of(ball).empty();
+    };
+    const auto linked = [&has_links](const Contact& c) {
+        return has_links(c.ball) || (!c.other.is_surface && has_links(c.other.index));
     };
     if (std::any_of(seeds_.all().begin(), seeds_.all().end(), linked))
         for (const Contact& c : linked_contacts(seeds_.all(), now)) seeds_.add(c);
     // Clusters that do not touch are resolved one by one.
     for (std::size_t i = 0; i < met; ++i) {
         const Contact seed = seeds_.all()[i];
-        if (resolved_[static_cast<std::size_t>(seed.ball)] != instant_) resolve(seed, now);
+        if (world_.ball(seed.ball).resolved != instant_) resolve(seed, now);
     }
     if (!stepped_.empty()) step_islands(stepped_, now);
 }
@@ -243,7 +246,7 @@ void ExactRun::resolve(const Contact& seed, double now) {
     cluster_.resolve(solver_, impacts_, limits_of(cluster_));
     write_impacts(impacts_, now);
     for (const int ball : cluster_.balls()) {
-        resolved_[static_cast<std::size_t>(ball)] = instant_;
+        world_.ball(ball).resolved = instant_;
         world_.ball(ball).rounding_speed = cluster_.rounding_speed();
     }
     settle_cluster(cluster_, now);

@@ -121,7 +121,7 @@ void ExactRun::begin_piece(int ball, double now, const BallState& at, const Vec3
     if (!at.position.allFinite() || !at.velocity.allFinite() || !at.spin.allFinite())
         throw Failure(FailureKind::kRun, fmt::format("the state of ball {} is not finite at {} s",
                                                      world_.body(ball).name, now));
-    motion_.balls[static_cast<std::size_t>(ball)].append(b.piece);
+    log_.append(ball, b.piece);
 }
 
 void ExactRun::fly(int ball, double now, const Velocities& velocities) {

@@ -54,8 +54,6 @@ TimeOfImpact impact_of_curved(const ExactBall& a, const ExactBall& b, double sum
         touching);
 }
 
-bool is_stepped(const ExactBall& b) { return b.stepped || b.asleep; }
-
 }  // namespace
 
 // ---- Predictions
@@ -163,9 +161,9 @@ void ExactRun::fit_grid(double now) {
 void ExactRun::consider_surface(int ball, int surface, double now) {
     const Partner partner{true, surface};
     const double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
-    if (until <= now || links_.linked(ball, partner)) return;
+    if (until <= now) return;
     const bool stepped = is_stepped(world_.ball(ball));
-    if (stepped && joins_island(partner, ball, now)) return;
+    if (stepped && (links_.linked(ball, partner) || joins_island(partner, ball, now))) return;
     const double from = stepped ? now : world_.ball(ball).piece.start;
     const Path path = world_.path(ball, from);
     const double radius = world_.ball(ball).radius;

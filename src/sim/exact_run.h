@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/motion_log.h"
 #include "sim/cluster.h"
 #include "sim/crowd.h"
 #include "sim/curved_phase.h"
@@ -170,7 +171,8 @@ class ExactRun {
     Crowd crowd_;
     double next_step_ = std::numeric_limits<double>::infinity();  ///< of the crowd, s
     DueList due_;
-    Motion motion_;
+    MotionLog log_;
+    Motion motion_;  ///< its trajectories are filled in the end
     SimulationReport report_;
     std::uint64_t next_stamp_ = 1;
     std::map<int, CurvedPhase> curved_;      ///< by ball
@@ -187,9 +189,8 @@ class ExactRun {
     std::vector<Prediction> together_;
     std::vector<Contact> impacts_;
     std::vector<Contact> contacts_;
-    std::vector<int> taken_;               ///< by the crowd
-    std::vector<int> stepped_;             ///< balls whose island is due
-    std::vector<std::uint64_t> resolved_;  ///< per ball, the last instant that resolved it
+    std::vector<int> taken_;    ///< by the crowd
+    std::vector<int> stepped_;  ///< balls whose island is due
     std::uint64_t instant_ = 0;
 };
 

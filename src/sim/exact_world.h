@@ -37,12 +37,16 @@ struct alignas(64) ExactBall {
     double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
     double impacts_since = 0;  ///< s: its recent impacts are counted from here
     int recent_impacts = 0;
-    int steps = 0;       ///< taken since it joined an island
-    int calm_steps = 0;  ///< on end, in which it hardly moved
-    int slow_steps = 0;  ///< on end, in which it moved, but slowly
+    std::uint64_t resolved = 0;  ///< the last instant at which an impact of it was resolved
+    int steps = 0;               ///< taken since it joined an island
+    int calm_steps = 0;          ///< on end, in which it hardly moved
+    int slow_steps = 0;          ///< on end, in which it moved, but slowly
     /// s, when the row of the lasting contact is due: at the end of its bouncing series.
     double row_due = std::numeric_limits<double>::infinity();
 };
+
+/// What an island holds; only such a ball has links.
+inline bool is_stepped(const ExactBall& b) { return b.stepped || b.asleep; }
 
 /// Scene, balls and the geometry of who touches whom.
 class ExactWorld {
