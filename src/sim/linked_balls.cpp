@@ -1,88 +1,8 @@
 #include "sim/linked_balls.h"
 
 #include <algorithm>
-#include <span>
-
-#include "sim/linked_equations.h"
-#include "sim/slip_starts.h"
 
 namespace carom {
-
-namespace {
-
-using Rows = ForceEquations::Rows;
-using Sliding = ForceEquations::Sliding;
-
-/// As least_push() of one ball; a system of equations leaves more rounding.
-constexpr double kLeastPush = 1e-13;
-
-/// Rounds of putting places right; each squares what is left.
-constexpr int kPlaceRounds = 3;
-
-/// What the equations have to bring about: gaps that stay shut, slips that stay 0.
-double wanted_by(const LinkedBalls& system, const ForceRow& row, const ContactMotion& m) {
-    const LinkedContact& c = system.contacts[row.contact];
-    const double pull = c.other < 0 ? row.along.dot(system.gravity) : 0;
-    return row.normal ? -m.across_speed.dot(m.n_rate) - pull
-                      : row.along.dot(m.turn_speed.cross(m.n_rate)) - pull;
-}
-
-/// The rates of gap and slip at each contact, from what happens to the balls.
-void fill_rates(const LinkedBalls& system, const ContactMotions& at, LinkedForces& r) {
-    for (std::size_t i = 0; i < system.contact_count; ++i) {
-        const LinkedContact& contact = system.contacts[i];
-        LinkedContactForces& c = r.contacts[i];
-        c.normal = at[i].n;
-        c.normal_rate = at[i].n_rate;
-        c.slip = at[i].slip;
-        c.speed = at[i].speed;
-        Vec3 a = Vec3::Zero(), turning = Vec3::Zero();
-        for (const int ball : {contact.ball, contact.other}) {
-            if (ball < 0) continue;
-            const auto b = static_cast<std::size_t>(ball);
-            a += (ball == contact.ball ? 1 : -1) * r.acceleration[b];
-            turning += system.balls[b].radius * r.spin_rate[b];
-        }
-        c.departure = c.normal.dot(a) + at[i].across_speed.dot(c.normal_rate);
-        c.slip_rate = a - turning.cross(c.normal) - at[i].turn_speed.cross(c.normal_rate);
-    }
-}
-
-/// All forces, where those of friction at incipient slips are given: `held` [N].
-LinkedForces forces_with(const LinkedBalls& system, const ContactMotions& at,
-                         std::span<const ForceRow> held) {
-    const ForceEquations equations(system, at, Rows::kNormalsAndSlips, Sliding::kHeldBack);
-    ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));
-    for (std::size_t i = 0; i < equations.count(); ++i) {
-        const ForceRow& row = equations.row(i);
-        double& rate = wanted[static_cast<Eigen::Index>(i)];
-        rate = wanted_by(system, row, at[row.contact]);
-        for (const ForceRow& h : held) rate -= equations.effect(i, h, h.force);
-    }
-    const ForceSizes sizes = equations.solve(wanted);
-
-    LinkedChange change;
-    change.linear.fill(system.gravity);
-    equations.apply(sizes, change);
-    LinkedForces r;
-    for (const ForceRow& h : held) {
-        equations.apply(h, h.force, change);
-        r.contacts[h.contact].friction = h.force;
-    }
-    r.acceleration = change.linear;
-    r.spin_rate = change.spin;
-    for (std::size_t i = 0; i < equations.count(); ++i) {
-        const ForceRow& row = equations.row(i);
-        LinkedContactForces& c = r.contacts[row.contact];
-        const Vec3 force = sizes[static_cast<Eigen::Index>(i)] * row.force;
-        c.push += force.dot(row.n);
-        c.friction += force - force.dot(row.n) * row.n;
-    }
-    fill_rates(system, at, r);
-    return r;
-}
-
-}  // namespace
 
 double LinkedBalls::smallest_radius() const {
     double radius = balls[0].radius;
@@ -90,62 +10,10 @@ double LinkedBalls::smallest_radius() const {
     return radius;
 }
 
-LinkedForces linked_forces(const LinkedBalls& system, const LinkedState& state) {
-    const ContactMotions at = contact_motions(system, state);
-    SlipStarts starts(system, at);
-    if (starts.count() == 0) return forces_with(system, at, {});
-    // What happens at the slips that begin is linear in the forces that hold them back.
-    for (std::size_t i = 0; i <= 2 * starts.count(); ++i)
-        starts.take(i, forces_with(system, at, starts.probe(i)));
-    LinkedForces r = forces_with(system, at, starts.friction());
-    starts.fill_directions(r);
-    return r;
-}
-
-void project(const LinkedBalls& system, LinkedState& state) {
-    for (int round = 0; round < kPlaceRounds; ++round) {
-        const ContactMotions at = contact_motions(system, state);
-        const ForceEquations equations(system, at, Rows::kNormals, Sliding::kSmooth);
-        ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));
-        for (std::size_t i = 0; i < equations.count(); ++i) {
-            const std::size_t contact = equations.row(i).contact;
-            wanted[static_cast<Eigen::Index>(i)] =
-                system.contacts[contact].feature.distance - at[contact].distance;
-        }
-        LinkedChange change;
-        equations.apply(equations.solve(wanted), change);
-        for (std::size_t i = 0; i < system.ball_count; ++i) state[i].x += change.linear[i];
-    }
-    const ContactMotions at = contact_motions(system, state);
-    const ForceEquations equations(system, at, Rows::kNormalsAndSlips, Sliding::kSmooth);
-    ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));
-    for (std::size_t i = 0; i < equations.count(); ++i) {
-        const ForceRow& row = equations.row(i);
-        const ContactMotion& m = at[row.contact];
-        wanted[static_cast<Eigen::Index>(i)] = -row.along.dot(m.slip + m.speed * m.n);
-    }
-    LinkedChange change;
-    equations.apply(equations.solve(wanted), change);
-    for (std::size_t i = 0; i < system.ball_count; ++i) {
-        state[i].v += change.linear[i];
-        state[i].w += change.spin[i];
-    }
-}
-
-double grip_left(const LinkedContact& contact, const LinkedContactForces& forces) {
-    return contact.friction * forces.push - forces.friction.norm();
-}
-
-double weight_at(const LinkedBalls& system, const LinkedContact& c) {
-    double mass = system.balls[static_cast<std::size_t>(c.ball)].mass;
-    if (c.other >= 0) mass = std::min(mass, system.balls[static_cast<std::size_t>(c.other)].mass);
-    return mass * system.gravity.norm();
-}
-
-double least_push(const LinkedBalls& system, const LinkedContact& c, const LinkedState& state) {
-    const CurvedState& a = state[static_cast<std::size_t>(c.ball)];
-    const double size = 1 + a.x.cwiseAbs().maxCoeff() / c.feature.distance;
-    return -kLeastPush * size * weight_at(system, c);
+double LinkedBalls::weight_at(const LinkedContact& c) const {
+    double mass = balls[static_cast<std::size_t>(c.ball)].mass;
+    if (c.other >= 0) mass = std::min(mass, balls[static_cast<std::size_t>(c.other)].mass);
+    return mass * gravity.norm();
 }
 
 }  // namespace carom

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/curved_course.h"
-#include "sim/linked_balls.h"
+#include "sim/linked_forces.h"
 
 namespace carom {
 

@@ -100,7 +100,7 @@ bool choose_modes(LinkedBalls& system, LinkedState& state) {
                 c.presses = false;
                 changed = true;
             } else if (c.mode == CurvedMode::kRolling &&
-                       grip_left(c, f.contacts[i]) < -kRounding * weight_at(system, c)) {
+                       grip_left(c, f.contacts[i]) < -kRounding * system.weight_at(c)) {
                 if (bears_nothing(system, state, i))
                     c.presses = false;
                 else if (!begin_slip(system, state, i))

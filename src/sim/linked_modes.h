@@ -1,7 +1,7 @@
 // Which contacts of linked balls press, and which of them slide or roll.
 #pragma once
 
-#include "sim/linked_balls.h"
+#include "sim/linked_forces.h"
 
 namespace carom {
 

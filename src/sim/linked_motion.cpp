@@ -129,7 +129,7 @@ double slip_time(const LinkedCourse& course, const LinkedForces& f) {
         if (!c.presses || c.mode != CurvedMode::kSliding) continue;
         const double hold = f.contacts[i].friction.norm() * system.gravity.norm();
         if (hold > 0)
-            shortest = std::min(shortest, f.contacts[i].slip.norm() * weight_at(system, c) / hold);
+            shortest = std::min(shortest, f.contacts[i].slip.norm() * system.weight_at(c) / hold);
     }
     return shortest;
 }

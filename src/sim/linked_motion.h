@@ -3,7 +3,7 @@
 #pragma once
 
 #include "motion/motion.h"
-#include "sim/linked_balls.h"
+#include "sim/linked_forces.h"
 
 namespace carom {
 

@@ -22,7 +22,7 @@ SlipStarts::SlipStarts(const LinkedBalls& system, const ContactMotions& at) {
         Start& s = starts_[count_++];
         s.contact = i;
         s.mu = c.friction;
-        s.unit = weight_at(system, c);
+        s.unit = system.weight_at(c);
         s.n = at[i].n;
         s.t = s.n.unitOrthogonal();
         s.u = s.n.cross(s.t);
