@@ -1,5 +1,6 @@
 // carom still: one picture of one instant.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -69,7 +70,14 @@ std::vector<double> instants(const StillOptions& options) {
     return result;
 }
 
+/// A still ends before memory could run short: it is asked for in large parts, and not handed back.
+void ask_for_memory_in_large_parts() {
+    mallopt(M_TOP_PAD, 64 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
+
 int still(const StillOptions& options, const Interrupt& interrupt) {
+    ask_for_memory_in_large_parts();
     Stats stats;
     check_output(options);
     std::optional<FilmScenes> scenes;

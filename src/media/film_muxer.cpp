@@ -27,11 +27,11 @@ int exact_time_scale(AVRational time_base) {
 class Options {
   public:
     Options() = default;
-    ~Options() { av_dict_free(&dictionary_); }
+    ~Options() { libav().av_dict_free(&dictionary_); }
     Options(const Options&) = delete;
     Options& operator=(const Options&) = delete;
     void set(const char* key, const std::string& value) {
-        if (av_dict_set(&dictionary_, key, value.c_str(), 0) < 0) throw std::bad_alloc();
+        if (libav().av_dict_set(&dictionary_, key, value.c_str(), 0) < 0) throw std::bad_alloc();
     }
     AVDictionary** get() { return &dictionary_; }
 
@@ -52,13 +52,14 @@ FilmContainer film_container(const std::string& path) {
 }
 
 bool FilmMuxer::wants_global_header(FilmContainer container) {
-    const AVOutputFormat* format = av_guess_format(format_name(container), nullptr, nullptr);
+    const AVOutputFormat* format =
+        libav().av_guess_format(format_name(container), nullptr, nullptr);
     return format != nullptr && (format->flags & AVFMT_GLOBALHEADER) != 0;
 }
 
 void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
-    avio_closep(&context->pb);
-    avformat_free_context(context);
+    libav().avio_closep(&context->pb);
+    libav().avformat_free_context(context);
 }
 
 FilmMuxer::FilmMuxer(const std::string& file, const std::string& path, FilmContainer container,
@@ -66,22 +67,22 @@ FilmMuxer::FilmMuxer(const std::string& file, const std::string& path, FilmConta
     : path_(path), encoder_time_base_(encoder.time_base) {
     const LibavMessages messages;
     AVFormatContext* context = nullptr;
-    check(avformat_alloc_output_context2(&context, nullptr, format_name(container),
-                                         libav_url(file).c_str()),
+    check(libav().avformat_alloc_output_context2(&context, nullptr, format_name(container),
+                                                 libav_url(file).c_str()),
           "make a container for", messages);
     context_.reset(context);
     context->flags |= AVFMT_FLAG_BITEXACT;
 
-    AVStream* stream = allocated(avformat_new_stream(context, nullptr));
-    check(avcodec_parameters_from_context(stream->codecpar, &encoder), "describe the stream of",
-          messages);
+    AVStream* stream = allocated(libav().avformat_new_stream(context, nullptr));
+    check(libav().avcodec_parameters_from_context(stream->codecpar, &encoder),
+          "describe the stream of", messages);
     stream->time_base = encoder.time_base;
     stream->avg_frame_rate = encoder.framerate;
     stream->r_frame_rate = encoder.framerate;
-    if (!title.empty() && av_dict_set(&context->metadata, "title", title.c_str(), 0) < 0)
+    if (!title.empty() && libav().av_dict_set(&context->metadata, "title", title.c_str(), 0) < 0)
         throw std::bad_alloc();
 
-    check(avio_open(&context->pb, context->url, AVIO_FLAG_WRITE), "write", messages);
+    check(libav().avio_open(&context->pb, context->url, AVIO_FLAG_WRITE), "write", messages);
     write_header(container);
 }
 
@@ -94,7 +95,7 @@ void FilmMuxer::write_header(FilmContainer container) {
         options.set("video_track_timescale", scale);
         options.set("movie_timescale", scale);
     }
-    check(avformat_write_header(context_.get(), options.get()), "write", messages);
+    check(libav().avformat_write_header(context_.get(), options.get()), "write", messages);
 }
 
 FilmMuxer::~FilmMuxer() = default;
@@ -105,18 +106,18 @@ void FilmMuxer::check(int result, const char* action, const LibavMessages& messa
 
 void FilmMuxer::write(AVPacket& packet) {
     const LibavMessages messages;
-    av_packet_rescale_ts(&packet, encoder_time_base_, context_->streams[0]->time_base);
+    libav().av_packet_rescale_ts(&packet, encoder_time_base_, context_->streams[0]->time_base);
     packet.stream_index = 0;
-    check(av_interleaved_write_frame(context_.get(), &packet), "write", messages);
+    check(libav().av_interleaved_write_frame(context_.get(), &packet), "write", messages);
     check(context_->pb->error, "write", messages);
 }
 
 void FilmMuxer::close() {
     const LibavMessages messages;
-    check(av_write_trailer(context_.get()), "write", messages);
-    avio_flush(context_->pb);
+    check(libav().av_write_trailer(context_.get()), "write", messages);
+    libav().avio_flush(context_->pb);
     check(context_->pb->error, "write", messages);
-    check(avio_closep(&context_->pb), "write", messages);
+    check(libav().avio_closep(&context_->pb), "write", messages);
 }
 
 }  // namespace carom

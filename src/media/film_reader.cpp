@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kMostPixels = 100'000'000;
 
 struct CloseInput {
-    void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
+    void operator()(AVFormatContext* context) const { libav().avformat_close_input(&context); }
 };
 using InputPtr = std::unique_ptr<AVFormatContext, CloseInput>;
 
@@ -35,21 +35,22 @@ class FilmReader::Impl {
     explicit Impl(std::string path) : path_(std::move(path)) {
         const LibavMessages messages;
         AVFormatContext* input = nullptr;
-        check(avformat_open_input(&input, libav_url(path_).c_str(), nullptr, nullptr), messages);
+        check(libav().avformat_open_input(&input, libav_url(path_).c_str(), nullptr, nullptr),
+              messages);
         input_.reset(input);
-        check(avformat_find_stream_info(input, nullptr), messages);
+        check(libav().avformat_find_stream_info(input, nullptr), messages);
         const AVCodec* codec = nullptr;
-        stream_ = av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+        stream_ = libav().av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
         check(stream_, messages);
         open_decoder(codec, messages);
-        packet_.reset(allocated(av_packet_alloc()));
-        frame_.reset(allocated(av_frame_alloc()));
+        packet_.reset(allocated(libav().av_packet_alloc()));
+        frame_.reset(allocated(libav().av_frame_alloc()));
     }
 
     bool next(Image& image) {
         const LibavMessages messages;
         while (true) {
-            const int result = avcodec_receive_frame(decoder_.get(), frame_.get());
+            const int result = libav().avcodec_receive_frame(decoder_.get(), frame_.get());
             if (result == AVERROR_EOF) return false;
             if (result != AVERROR(EAGAIN)) {
                 check(result, messages);
@@ -66,27 +67,28 @@ class FilmReader::Impl {
     }
 
     void open_decoder(const AVCodec* codec, const LibavMessages& messages) {
-        decoder_.reset(allocated(avcodec_alloc_context3(codec)));
+        decoder_.reset(allocated(libav().avcodec_alloc_context3(codec)));
         decoder_->max_pixels = kMostPixels;
         decoder_->err_recognition = AV_EF_EXPLODE;  // a damaged frame must not pass for a whole one
         decoder_->thread_count = 1;  // more would hold more frames; nobody waits for the reader
-        check(avcodec_parameters_to_context(decoder_.get(), input_->streams[stream_]->codecpar),
+        check(libav().avcodec_parameters_to_context(decoder_.get(),
+                                                    input_->streams[stream_]->codecpar),
               messages);
-        check(avcodec_open2(decoder_.get(), codec, nullptr), messages);
+        check(libav().avcodec_open2(decoder_.get(), codec, nullptr), messages);
     }
 
     /// Gives the decoder the next packet, or the end.
     void feed(const LibavMessages& messages) {
         while (true) {
-            const int result = av_read_frame(input_.get(), packet_.get());
+            const int result = libav().av_read_frame(input_.get(), packet_.get());
             if (result == AVERROR_EOF) {
-                check(avcodec_send_packet(decoder_.get(), nullptr), messages);
+                check(libav().avcodec_send_packet(decoder_.get(), nullptr), messages);
                 return;
             }
             check(result, messages);
             const bool ours = packet_->stream_index == stream_;
-            const int sent = ours ? avcodec_send_packet(decoder_.get(), packet_.get()) : 0;
-            av_packet_unref(packet_.get());
+            const int sent = ours ? libav().avcodec_send_packet(decoder_.get(), packet_.get()) : 0;
+            libav().av_packet_unref(packet_.get());
             check(sent, messages);
             if (ours) return;
         }
@@ -99,23 +101,24 @@ class FilmReader::Impl {
         const auto format = static_cast<AVPixelFormat>(frame_->format);
         const bool same = scaler_ && width == width_ && height == height_ && format == format_;
         if (same) return;
-        scaler_.reset(allocated(sws_alloc_context()));
-        av_opt_set_int(scaler_.get(), "srcw", width, 0);
-        av_opt_set_int(scaler_.get(), "srch", height, 0);
-        av_opt_set_int(scaler_.get(), "src_format", format, 0);
-        av_opt_set_int(scaler_.get(), "dstw", width, 0);
-        av_opt_set_int(scaler_.get(), "dsth", height, 0);
-        av_opt_set_int(scaler_.get(), "dst_format", AV_PIX_FMT_BGRA, 0);
-        av_opt_set_int(scaler_.get(), "sws_flags", flags, 0);
+        scaler_.reset(allocated(libav().sws_alloc_context()));
+        libav().av_opt_set_int(scaler_.get(), "srcw", width, 0);
+        libav().av_opt_set_int(scaler_.get(), "srch", height, 0);
+        libav().av_opt_set_int(scaler_.get(), "src_format", format, 0);
+        libav().av_opt_set_int(scaler_.get(), "dstw", width, 0);
+        libav().av_opt_set_int(scaler_.get(), "dsth", height, 0);
+        libav().av_opt_set_int(scaler_.get(), "dst_format", AV_PIX_FMT_BGRA, 0);
+        libav().av_opt_set_int(scaler_.get(), "sws_flags", flags, 0);
         if (frame_->chroma_location == AVCHROMA_LOC_LEFT) {
-            av_opt_set_int(scaler_.get(), "src_h_chr_pos", kLeftChroma, 0);
-            av_opt_set_int(scaler_.get(), "src_v_chr_pos", kBetweenRows, 0);
+            libav().av_opt_set_int(scaler_.get(), "src_h_chr_pos", kLeftChroma, 0);
+            libav().av_opt_set_int(scaler_.get(), "src_v_chr_pos", kBetweenRows, 0);
         }
-        check(sws_init_context(scaler_.get(), nullptr, nullptr), messages);
+        check(libav().sws_init_context(scaler_.get(), nullptr, nullptr), messages);
         const int unit = 1 << 16;  // swscale's 1 for contrast and saturation
-        sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(matrix_of(*frame_)),
-                                 frame_->color_range == AVCOL_RANGE_JPEG ? 1 : 0,
-                                 sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, unit, unit);
+        libav().sws_setColorspaceDetails(
+            scaler_.get(), libav().sws_getCoefficients(matrix_of(*frame_)),
+            frame_->color_range == AVCOL_RANGE_JPEG ? 1 : 0,
+            libav().sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, unit, unit);
         width_ = width;
         height_ = height;
         format_ = format;
@@ -126,7 +129,8 @@ class FilmReader::Impl {
         if (image.width_px != width_ || image.height_px != height_) image = Image(width_, height_);
         std::uint8_t* planes[] = {image.bgra.data()};
         const int strides[] = {static_cast<int>(image.stride_bytes())};
-        check(sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, height_, planes, strides),
+        check(libav().sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, height_, planes,
+                                strides),
               messages);
     }
 

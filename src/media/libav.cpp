@@ -20,7 +20,7 @@ thread_local LibavMessages* innermost = nullptr;
 
 LibavMessages::LibavMessages() : outer_(innermost) {
     static std::once_flag installed;
-    std::call_once(installed, [] { av_log_set_callback(&LibavMessages::receive); });
+    std::call_once(installed, [] { libav().av_log_set_callback(&LibavMessages::receive); });
     innermost = this;
 }
 
@@ -50,7 +50,7 @@ std::string LibavMessages::text() const {
 void throw_libav(FailureKind kind, const std::string& action, const std::string& path, int code,
                  const LibavMessages& messages) {
     std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
-    av_strerror(code, text.data(), text.size());
+    libav().av_strerror(code, text.data(), text.size());
     throw Failure(kind,
                   fmt::format("cannot {} '{}': {}{}", action, path, text.data(), messages.text()));
 }

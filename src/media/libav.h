@@ -2,27 +2,20 @@
 // Failures. Only .cpp files include it.
 #pragma once
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/frame.h>
-#include <libavutil/opt.h>
-#include <libswscale/swscale.h>
-}
-
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/failure.h"
+#include "media/libav_table.h"
 
 namespace carom {
 
 struct LibavFree {
-    void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
-    void operator()(AVFrame* p) const { av_frame_free(&p); }
-    void operator()(AVPacket* p) const { av_packet_free(&p); }
-    void operator()(SwsContext* p) const { sws_freeContext(p); }
+    void operator()(AVCodecContext* p) const { libav().avcodec_free_context(&p); }
+    void operator()(AVFrame* p) const { libav().av_frame_free(&p); }
+    void operator()(AVPacket* p) const { libav().av_packet_free(&p); }
+    void operator()(SwsContext* p) const { libav().sws_freeContext(p); }
 };
 using CodecPtr = std::unique_ptr<AVCodecContext, LibavFree>;
 using FramePtr = std::unique_ptr<AVFrame, LibavFree>;

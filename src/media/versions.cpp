@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libswscale/swscale.h>
-}
+#include "media/libav_table.h"
 
 namespace carom {
 
@@ -21,9 +17,9 @@ std::string text(unsigned version) {
 
 std::map<std::string, std::string> media_versions() {
     return {{"libpng", PNG_LIBPNG_VER_STRING},
-            {"libavcodec", text(avcodec_version())},
-            {"libavformat", text(avformat_version())},
-            {"libswscale", text(swscale_version())}};
+            {"libavcodec", text(libav().avcodec_version())},
+            {"libavformat", text(libav().avformat_version())},
+            {"libswscale", text(libav().swscale_version())}};
 }
 
 }  // namespace carom

@@ -63,13 +63,13 @@ void set_timing(AVCodecContext& context, const FilmOptions& options) {
 /// tenth of the time to encode, and makes the film the same on both kinds of processors.
 std::string encoder_settings(const std::string& preset) {
     std::string all = "8x8dct=1:sync-lookahead=0";
-    if ((av_get_cpu_flags() & AV_CPU_FLAG_AVX512) != 0) all += ":asm=AVX2";
+    if ((libav().av_get_cpu_flags() & AV_CPU_FLAG_AVX512) != 0) all += ":asm=AVX2";
     if (preset == "ultrafast" || preset == "superfast") return all;  // they do not look ahead
     return all + (preset == "veryfast" ? ":rc-lookahead=3" : ":rc-lookahead=20");
 }
 
 FramePtr make_frame(const AVCodecContext& context) {
-    FramePtr frame(allocated(av_frame_alloc()));
+    FramePtr frame(allocated(libav().av_frame_alloc()));
     frame->width = context.width;
     frame->height = context.height;
     frame->format = context.pix_fmt;
@@ -78,7 +78,7 @@ FramePtr make_frame(const AVCodecContext& context) {
     frame->color_trc = context.color_trc;
     frame->color_range = context.color_range;
     frame->chroma_location = context.chroma_sample_location;
-    if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
+    if (libav().av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
     return frame;
 }
 
@@ -112,13 +112,13 @@ VideoEncoder::VideoEncoder(const std::string& path, const FilmOptions& options, 
     : path_(path) {
     require_film_options(options);
     const LibavMessages messages;
-    const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
+    const AVCodec* codec = libav().avcodec_find_encoder_by_name("libx264");
     if (codec == nullptr)
         throw Failure(FailureKind::kRun, fmt::format("cannot encode '{}': this FFmpeg has no "
                                                      "libx264",
                                                      path));
-    context_.reset(allocated(avcodec_alloc_context3(codec)));
-    packet_.reset(allocated(av_packet_alloc()));
+    context_.reset(allocated(libav().avcodec_alloc_context3(codec)));
+    packet_.reset(allocated(libav().av_packet_alloc()));
     if (global_header) context_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     x264_threads_.watch("carom-x264", [&] { open(options); });
     frame_ = make_frame(*context_);
@@ -129,15 +129,16 @@ void VideoEncoder::open(const FilmOptions& options) {
     set_picture_format(*context_, options);
     set_timing(*context_, options);
     context_->flags |= AV_CODEC_FLAG_BITEXACT;
-    context_->thread_count = options.threads > 0 ? options.threads : av_cpu_count();
+    context_->thread_count = options.threads > 0 ? options.threads : libav().av_cpu_count();
 
     void* x264 = context_->priv_data;
-    int result = av_opt_set(x264, "preset", options.preset.c_str(), 0);
-    if (result >= 0) result = av_opt_set(x264, "profile", "high", 0);
-    if (result >= 0) result = av_opt_set_double(x264, "crf", options.crf, 0);
+    int result = libav().av_opt_set(x264, "preset", options.preset.c_str(), 0);
+    if (result >= 0) result = libav().av_opt_set(x264, "profile", "high", 0);
+    if (result >= 0) result = libav().av_opt_set_double(x264, "crf", options.crf, 0);
     if (result >= 0)
-        result = av_opt_set(x264, "x264-params", encoder_settings(options.preset).c_str(), 0);
-    if (result >= 0) result = avcodec_open2(context_.get(), nullptr, nullptr);
+        result =
+            libav().av_opt_set(x264, "x264-params", encoder_settings(options.preset).c_str(), 0);
+    if (result >= 0) result = libav().avcodec_open2(context_.get(), nullptr, nullptr);
     if (result < 0)
         throw_libav(FailureKind::kRun, "open the H.264 encoder for", path_, result, messages);
 }
@@ -147,7 +148,7 @@ void VideoEncoder::encode(const Image& image, const TakePacket& take) {
     CAROM_CHECK(image.height_px, ==, context_->height);
     const double begin = calling_thread_cpu_s();
     // x264 copies its input, so the one frame is ours again after every call.
-    if (av_frame_make_writable(frame_.get()) < 0) throw std::bad_alloc();
+    if (libav().av_frame_make_writable(frame_.get()) < 0) throw std::bad_alloc();
     converter_.convert(image, {frame_->data[0], frame_->data[1], frame_->data[2],
                                frame_->linesize[0], frame_->linesize[1], frame_->linesize[2]});
     frame_->pts = frames_++;
@@ -164,7 +165,7 @@ void VideoEncoder::flush(const TakePacket& take) {
 void VideoEncoder::send(const AVFrame* frame) {
     const LibavMessages messages;
     const double begin = calling_thread_cpu_s();
-    const int result = avcodec_send_frame(context_.get(), frame);
+    const int result = libav().avcodec_send_frame(context_.get(), frame);
     caller_cpu_s_ += calling_thread_cpu_s() - begin;
     if (result < 0)
         throw_libav(FailureKind::kRun, fmt::format("encode frame {} of", frames_), path_, result,
@@ -175,14 +176,14 @@ void VideoEncoder::receive(const TakePacket& take) {
     const LibavMessages messages;
     while (true) {
         const double begin = calling_thread_cpu_s();
-        const int result = avcodec_receive_packet(context_.get(), packet_.get());
+        const int result = libav().avcodec_receive_packet(context_.get(), packet_.get());
         caller_cpu_s_ += calling_thread_cpu_s() - begin;
         if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
         if (result < 0)
             throw_libav(FailureKind::kRun, "encode a frame of", path_, result, messages);
         packet_->duration = 1;  // x264 says none, and the last frame's must not be guessed
         take(*packet_);
-        av_packet_unref(packet_.get());
+        libav().av_packet_unref(packet_.get());
     }
 }
 

@@ -258,9 +258,19 @@ void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const 
         append_instance(balls[i], shade_on(balls[i]), casters.first[i], casters.count[i]);
         programs.push_back(&program_of(style_of(balls[i])));
     }
-    if (programs.empty()) return;
+    if (!programs.empty()) draw_runs(programs, casters.vec4s, background);
+}
 
-    caster_array_.upload(casters.vec4s);
+void BallBillboards::compile(const StaticPicture& background) {
+    std::vector<const GlProgram*> programs;
+    for (const auto& [style, program] : programs_) programs.push_back(&program);
+    instances_.assign(programs.size() * kInstanceFloats, 0.0F);
+    draw_runs(programs, {}, background);
+}
+
+void BallBillboards::draw_runs(const std::vector<const GlProgram*>& programs,
+                               const std::vector<float>& casters, const StaticPicture& background) {
+    caster_array_.upload(casters);
     caster_array_.bind(2);
     if (occluded_) {
         gl_->ActiveTexture(GL_TEXTURE1);

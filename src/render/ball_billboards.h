@@ -29,9 +29,8 @@ class BallBillboards {
     enum class Kind { kBalls, kMirrored };
     /// For mirror images, set_mirror() says in which mirror.
     BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                   Kind kind)
-        : BallBillboards(gl, scene, view, lights, false, BallPrograms::kEachStyle, std::nullopt,
-                         kind) {}
+                   Kind kind, BallPrograms programs)
+        : BallBillboards(gl, scene, view, lights, false, programs, std::nullopt, kind) {}
     /// `gl` and `scene` must outlive it. `occluded`: static bodies may stand before balls.
     BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
                    bool occluded, BallPrograms programs = BallPrograms::kEachStyle,
@@ -51,6 +50,10 @@ class BallBillboards {
     void draw_ghosts(const std::vector<BallInView>& ghosts, const std::vector<BallInView>& solid,
                      const StaticPicture& background);
 
+    /// Uses all programs, for drivers that compile at the first use; the viewport is without
+    /// extent.
+    void compile(const StaticPicture& background);
+
   private:
     struct Casters {
         std::vector<float> vec4s;       ///< centre and radius, relative to the shaded ball
@@ -61,6 +64,9 @@ class BallBillboards {
                         const std::vector<BallInView>& solid) const;
     void draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
                         const StaticPicture& background);
+    /// `programs`: of each instance, in the order in which they are drawn.
+    void draw_runs(const std::vector<const GlProgram*>& programs, const std::vector<float>& casters,
+                   const StaticPicture& background);
     void append_instance(const BallInView& ball, const BallShade& shade, int first_caster,
                          int casters);
     BallShade shade_on(const BallInView& ball) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/surface_table.h"
+
 namespace carom {
 
 namespace {
@@ -90,14 +92,15 @@ std::vector<BallInView> mirror_images(const std::vector<BallInView>& balls, cons
 }
 
 BallReflections::BallReflections(const Gl& gl, const Scene& scene, const View& view,
-                                 const Lights& lights, const PictureScale& scale)
+                                 const Lights& lights, const PictureScale& scale,
+                                 BallPrograms programs)
     : gl_(&gl),
       scene_(&scene),
       view_(view),
       lights_(lights),
       scale_(scale),
       mirrors_(find_mirrors(scene, view)),
-      balls_(gl, scene, view, lights, BallBillboards::Kind::kMirrored),
+      balls_(gl, scene, view, lights, BallBillboards::Kind::kMirrored, programs),
       layer_(make_texture(gl, GL_SRGB8_ALPHA8, view.width_px(), view.height_px(), GL_RGBA,
                           GL_UNSIGNED_BYTE)),
       layer_framebuffer_(make_framebuffer(gl, "mirror images", {&layer_})),

@@ -5,6 +5,7 @@
 
 #include "render/ball_billboards.h"
 #include "render/gl.h"
+#include "render/picture_scale.h"
 #include "render/static_picture.h"
 
 namespace carom {
@@ -35,7 +36,7 @@ class BallReflections {
   public:
     /// `gl` and `scene` must outlive it.
     BallReflections(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                    const PictureScale& scale);
+                    const PictureScale& scale, BallPrograms programs);
 
     /// Another view of the same size and kind.
     void set_view(const View& view, const Lights& lights, const PictureScale& scale);

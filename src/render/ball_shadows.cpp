@@ -55,10 +55,17 @@ const std::vector<float>& BallShadows::tiles_of(const std::vector<BallInView>& b
 
 void BallShadows::draw(const std::vector<BallInView>& balls, const StaticPicture& background) {
     tiles_.update(balls);
-    const std::vector<float>& tiles = tiles_.tiles();
-    if (tiles.empty()) return;
+    if (!tiles_.tiles().empty()) draw_tiles(tiles_.tiles(), tiles_.casters(), background);
+}
+
+void BallShadows::compile(const StaticPicture& background) {
+    draw_tiles({0, 0, 0, 1}, {0, 0, 0, 1}, background);
+}
+
+void BallShadows::draw_tiles(const std::vector<float>& tiles, const std::vector<float>& casters,
+                             const StaticPicture& background) {
     program_.use();
-    caster_array_.upload(tiles_.casters());
+    caster_array_.upload(casters);
     caster_array_.bind(2);
     gl_->ActiveTexture(GL_TEXTURE0);
     gl_->BindTexture(GL_TEXTURE_2D, background.facts().name());

@@ -24,10 +24,16 @@ class BallShadows {
     /// than the light that is left.
     void draw(const std::vector<BallInView>& balls, const StaticPicture& background);
 
+    /// Uses the program, for drivers that compile at the first use; the viewport is without extent.
+    void compile(const StaticPicture& background);
+
     /// The tiles that draw() may change: see ShadowTiles::tiles(). Holds until the next call.
     const std::vector<float>& tiles_of(const std::vector<BallInView>& balls);
 
   private:
+    void draw_tiles(const std::vector<float>& tiles, const std::vector<float>& casters,
+                    const StaticPicture& background);
+
     const Gl* gl_;
     ShadowTiles tiles_;
     GlProgram program_;

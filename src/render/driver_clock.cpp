@@ -24,6 +24,8 @@ clockid_t clock_of(int thread) {
 
 }  // namespace
 
+double thread_cpu_s() { return seconds(CLOCK_THREAD_CPUTIME_ID); }
+
 DriverClock::DriverClock() {
     std::error_code error;
     for (std::filesystem::directory_iterator task("/proc/self/task", error), end;
@@ -36,7 +38,7 @@ DriverClock::DriverClock() {
 }
 
 double DriverClock::now_s() const {
-    double sum = seconds(CLOCK_THREAD_CPUTIME_ID);
+    double sum = thread_cpu_s();
     for (const int thread : threads_) sum += seconds(clock_of(thread));
     return sum;
 }

@@ -5,6 +5,9 @@
 
 namespace carom {
 
+/// CPU seconds of the calling thread.
+double thread_cpu_s();
+
 /// CPU seconds of the calling thread plus those of the rasteriser threads that the software driver
 /// keeps inside this process (llvmpipe names them "llvmpipe-0", "llvmpipe-1", ...). They are shared
 /// by all contexts of a process, so two painters that draw at once count each other's time.

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <bit>
+
 #include "core/failure.h"
 #include "render/shader_sources.h"
 
@@ -81,6 +83,14 @@ class Shader {
     const Gl& gl_;
     GLuint name_;
 };
+
+/// llvmpipe (22.3) compiles a shader again for a buffer texture whose size is a power of two, and
+/// for one where the second byte of its size in bytes is zero: no array here has such a size. None
+/// is empty either, which would leave the texture without storage.
+std::size_t padded_size(std::size_t vec4s) {
+    if (vec4s % 4096 < 16) vec4s = vec4s / 4096 * 4096 + 17;
+    return std::has_single_bit(vec4s) ? vec4s + 1 : vec4s;
+}
 
 }  // namespace
 
@@ -201,18 +211,20 @@ GlVec4Array::GlVec4Array(const Gl& gl) : gl_(&gl), buffer_(gl), texture_(gl) {
 }
 
 void GlVec4Array::upload(const std::vector<float>& floats) {
-    // An empty buffer would leave the texture without storage, which drivers need not accept.
-    static constexpr float kNothing[4] = {};
-    const bool empty = floats.empty();
     if (floats.size() / 4 > most_vec4s_)
         throw Failure(FailureKind::kRun,
                       fmt::format("a frame needs {} values for its shaders, the driver takes {}",
                                   floats.size() / 4, most_vec4s_));
-    gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
-    gl_->BufferData(
-        GL_TEXTURE_BUFFER,
-        static_cast<GLsizeiptr>(empty ? sizeof kNothing : floats.size() * sizeof(float)),
-        empty ? kNothing : floats.data(), GL_STREAM_DRAW);
+    const auto send = [&](const std::vector<float>& values) {
+        gl_->BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
+        gl_->BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(values.size() * sizeof(float)),
+                        values.data(), GL_STREAM_DRAW);
+    };
+    const std::size_t vec4s = floats.size() / 4, padded = padded_size(vec4s);
+    if (padded == vec4s) return send(floats);
+    std::vector<float> longer = floats;
+    longer.resize(4 * padded);
+    send(longer);
 }
 
 void GlVec4Array::bind(int unit) const {

@@ -24,7 +24,7 @@ std::string text_of(const Gl& gl, GLenum what) {
 
 class OffscreenContext::Impl {
   public:
-    Impl() {
+    explicit Impl(OSMesaContext sharing) {
         const std::array<int, 9> attributes = {OSMESA_FORMAT,
                                                OSMESA_RGBA,
                                                OSMESA_PROFILE,
@@ -34,7 +34,7 @@ class OffscreenContext::Impl {
                                                OSMESA_CONTEXT_MINOR_VERSION,
                                                kMinor,
                                                0};
-        context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+        context_ = OSMesaCreateContextAttribs(attributes.data(), sharing);
         if (context_ == nullptr)
             throw Failure(FailureKind::kRun,
                           fmt::format("OSMesa gives no OpenGL {}.{} core context", kMajor, kMinor));
@@ -59,6 +59,7 @@ class OffscreenContext::Impl {
     }
 
     const Gl& gl() const { return gl_; }
+    OSMesaContext context() const { return context_; }
 
   private:
     // OSMesaGetProcAddress returns a pointer for names that do not exist: only the version tells.
@@ -82,7 +83,9 @@ void prefer_quick_compile() {
     ::setenv("GALLIVM_PERF", "nopt", 0);
 }
 
-OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>()) {}
+OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>(nullptr)) {}
+OffscreenContext::OffscreenContext(const OffscreenContext& sharing)
+    : impl_(std::make_unique<Impl>(sharing.impl_->context())) {}
 OffscreenContext::~OffscreenContext() = default;
 OffscreenContext::OffscreenContext(OffscreenContext&&) noexcept = default;
 OffscreenContext& OffscreenContext::operator=(OffscreenContext&&) noexcept = default;

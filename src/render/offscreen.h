@@ -15,12 +15,16 @@ void prefer_quick_compile();
 
 /// Owns one context of OpenGL 3.3 core. OSMesa draws into memory of the caller; carom draws into
 /// its own framebuffer objects instead, so that memory is a 16 x 16 dummy.
-/// One thread at a time; several contexts may live in one process.
+/// One thread at a time, and destroyed in the thread that used it last; several contexts may live
+/// in one process.
 class OffscreenContext {
   public:
     /// Failure(kRun) if there is no context, its version is below 3.3, or an entry point is
     /// missing.
     OffscreenContext();
+    /// Shares textures, buffers and programs of the other, for use in another thread; vertex arrays
+    /// and framebuffers are its own. What one has drawn the other sees after glFinish.
+    explicit OffscreenContext(const OffscreenContext& sharing);
     ~OffscreenContext();
     OffscreenContext(OffscreenContext&&) noexcept;
     OffscreenContext& operator=(OffscreenContext&&) noexcept;

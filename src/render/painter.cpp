@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <functional>
+#include <future>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/check.h"
@@ -21,38 +24,15 @@
 #include "render/overlay.h"
 #include "render/picture_layer.h"
 #include "render/picture_mean.h"
+#include "render/picture_scale.h"
 #include "render/shadow_tiles.h"
 #include "render/side_by_side.h"
+#include "render/static_drawing.h"
 #include "render/static_picture.h"
 #include "render/surface_table.h"
 #include "render/two_runs.h"
 
 namespace carom {
-
-namespace {
-
-constexpr double kGhostOutlinePx = 2.2;  // at 720
-
-double median_radius(const Scene& scene) {
-    std::vector<double> radii;
-    for (const Ball& ball : scene.balls) radii.push_back(ball.radius);
-    if (radii.empty()) return 0;
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return *middle;
-}
-
-/// The picture looks the same whether the scene is a millimetre or a kilometre wide.
-PictureScale scale_of(const Scene& scene, const Camera& camera) {
-    const double distance = (camera.to - camera.from).norm();
-    const double radius = median_radius(scene);
-    PictureScale scale;
-    scale.fade_m = 5.0 * distance;
-    scale.ao_reach_m = radius > 0 ? 2.0 * radius : 0.05 * distance;
-    return scale;
-}
-
-}  // namespace
 
 class Painter::Impl {
   public:
@@ -65,8 +45,6 @@ class Painter::Impl {
           gl_(context_.gl()),
           width_px_(options.width_px),
           height_px_(options.height_px) {
-        CAROM_CHECK(width_px_, >, 0);
-        CAROM_CHECK(height_px_, >, 0);
         check_size();
         const double begin = clock_.now_s();
         const double aspect = static_cast<double>(width_px_) / height_px_;
@@ -77,9 +55,18 @@ class Painter::Impl {
         moving_ = camera_moves(camera_);
         const Camera camera = camera_at(camera_, camera_motion(), scene.film.start);
         const View& view = view_.emplace(camera, width_px_, height_px_);
-        // The lamp stays where it is, however the camera moves.
-        lights_ = choose_lights(view);
+        lights_ = choose_lights(view);  // the lamp stays where it is, however the camera moves
         surfaces_ = make_surface_table(scene, view);
+
+        // Of a camera that stands, the static picture takes about as long as everything else: it is
+        // drawn meanwhile. (An exception here breaks the promise, so that the thread ends.)
+        const PictureScale scale = scale_of(scene, camera);
+        std::future<double> drawn;
+        std::promise<const StaticPicture*> target;
+        if (!moving_)
+            drawn = std::async(std::launch::async, draw_aside, std::cref(context_),
+                               StaticContents{view, lights_, surfaces_, scale, transparent_},
+                               target.get_future());
 
         gl_.Disable(GL_DITHER);
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
@@ -87,29 +74,21 @@ class Painter::Impl {
         color_ =
             make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
         frame_ = make_framebuffer(gl_, "the picture", {&color_});
-        background_.emplace(gl_, view, lights_, surfaces_, scale_of(scene, camera), transparent_);
+        background_.emplace(gl_, width_px_, height_px_, surfaces_.reflection);
+        target.set_value(&*background_);
+        if (moving_) drawing_.emplace(gl_, transparent_).aim(*background_);
         set_overlay(view);
-        draw_static_layer();
-        if (overlay_->has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
-        const bool on_surfaces = moving_ ? !scene.surfaces.empty() : surfaces_.count() > 0;
-        if (on_surfaces && !scene.balls.empty()) {
-            shadows_.emplace(gl_, scene, view, lights_, seen_in_tiles());
+        const Image static_layer = moving_ ? Image() : overlay_->static_under_layer();
+        make_passes(options, view, scale);
+        if (!moving_) {
+            compile();
+            draw_cpu_s_ += drawn.get();
+            if (static_layer.width_px != 0) background_->lay_over(static_layer);
+            // For a few pictures it is not worth the while to find out.
+            if (shadows_ && !options.few_pictures)
+                shadows_->set_view(scene, view, lights_, seen_in_tiles());
+            check_not_blank();
         }
-        if (wants_reflection(scene) && !scene.balls.empty() && !transparent_)
-            reflections_.emplace(gl_, scene, view, lights_, scale_of(scene, camera));
-        const BallPrograms programs =
-            options.few_pictures ? BallPrograms::kOneForAll : BallPrograms::kEachStyle;
-        balls_.emplace(gl_, scene, view, lights_, surfaces_.can_occlude(), programs);
-        if (against_ != nullptr) {
-            const Ink ink = ghost_ink(scene.overlay.theme);
-            const GhostLook look{
-                {linear_from_srgb(ink.r), linear_from_srgb(ink.g), linear_from_srgb(ink.b)},
-                std::max(1.2, overlay_px(kGhostOutlinePx, height_px_))};
-            ghosts_.emplace(gl_, against_->scene, view, lights_, surfaces_.can_occlude(), programs,
-                            look);
-        }
-        if (scene.film.shutter_deg > 0) mean_.emplace(gl_, width_px_, height_px_);
-        check_not_blank();
         gl_.check("preparing the picture");
         draw_cpu_s_ += clock_.now_s() - begin;
     }
@@ -136,7 +115,10 @@ class Painter::Impl {
         const bool blurred = exposed.size() > 1;
         most_instants_ = std::max(most_instants_, exposed.size());
         if (blurred) sum_exposure(exposed, t);
-        if (moving_) move_camera(t);
+        if (moving_) {
+            move_camera(t);
+            if (!checked_) check_not_blank();
+        }
         draw_picture(bodies_at(instants), t, {0, 0, width_px_, height_px_});
         if (blurred) mean_->write(frame_);
         gl_.Finish();
@@ -161,6 +143,8 @@ class Painter::Impl {
 
   private:
     void check_size() const {
+        CAROM_CHECK(width_px_, >, 0);
+        CAROM_CHECK(height_px_, >, 0);
         GLint largest = 0;
         gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
         if (width_px_ <= largest && height_px_ <= largest) return;
@@ -170,9 +154,43 @@ class Painter::Impl {
                                   width_px_, height_px_, largest, largest));
     }
 
+    /// The programs of each frame.
+    void make_passes(const PainterOptions& options, const View& view, const PictureScale& scale) {
+        if (overlay_->has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
+        const bool on_surfaces = moving_ ? !scene_.surfaces.empty() : surfaces_.count() > 0;
+        if (on_surfaces && !scene_.balls.empty()) shadows_.emplace(gl_, scene_, view, lights_);
+        const BallPrograms programs =
+            options.few_pictures ? BallPrograms::kOneForAll : BallPrograms::kEachStyle;
+        if (wants_reflection(scene_) && !scene_.balls.empty() && !transparent_)
+            reflections_.emplace(gl_, scene_, view, lights_, scale, programs);
+        balls_.emplace(gl_, scene_, view, lights_, surfaces_.can_occlude(), programs);
+        if (against_ != nullptr) {
+            constexpr double kGhostOutlinePx = 2.2;  // at 720
+            const Ink ink = ghost_ink(scene_.overlay.theme);
+            const GhostLook look{
+                {linear_from_srgb(ink.r), linear_from_srgb(ink.g), linear_from_srgb(ink.b)},
+                std::max(1.2, overlay_px(kGhostOutlinePx, height_px_))};
+            ghosts_.emplace(gl_, against_->scene, view, lights_, surfaces_.can_occlude(), programs,
+                            look);
+        }
+        if (scene_.film.shutter_deg > 0) mean_.emplace(gl_, width_px_, height_px_);
+    }
+
+    /// Drivers compile a program when it is first used: uses them, while another thread draws the
+    /// static picture, in a viewport without extent.
+    void compile() {
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
+        gl_.Viewport(0, 0, 0, 0);
+        // llvmpipe compiles again where a program before has bound a texture in a buffer's place.
+        if (moving_layer_) moving_layer_->draw();
+        if (shadows_) shadows_->compile(*background_);
+        if (reflections_) return;
+        balls_->compile(*background_);
+        if (ghosts_) ghosts_->compile(*background_);
+    }
+
     std::vector<TileBound> seen_in_tiles() const {
-        // On one plane the shadows' own bounds are tight.
-        if (!surfaces_.can_occlude()) return {};
+        if (!surfaces_.can_occlude()) return {};  // on one plane the shadows' own bounds are tight
         return background_->tile_bounds(*view_, ShadowTiles::kTilePx);
     }
 
@@ -181,7 +199,7 @@ class Painter::Impl {
         const Camera camera = camera_at(camera_, camera_motion(), t);
         const View& view = view_.emplace(camera, width_px_, height_px_);
         surfaces_ = make_surface_table(scene_, view);
-        background_->redraw(view, lights_, surfaces_, scale_of(scene_, camera));
+        drawing_->draw(view, lights_, surfaces_, scale_of(scene_, camera));
         overlay_->set_view(view);
         draw_static_layer();
         if (shadows_) shadows_->set_view(scene_, view, lights_, seen_in_tiles());
@@ -217,8 +235,8 @@ class Painter::Impl {
 
     std::vector<double> exposure_at(double t) const {
         const Exposure exposure(scene_.film, motion_.duration, t);
-        double way = 0;
-        if (moving_) way = camera_way_px(camera_, camera_motion(), exposure, width_px_, height_px_);
+        double way =
+            moving_ ? camera_way_px(camera_, camera_motion(), exposure, width_px_, height_px_) : 0;
         // Balls are seen from where the camera is at t.
         const View view(camera_at(camera_, camera_motion(), t), width_px_, height_px_);
         way += ball_way_px(scene_, motion_, exposure, view);
@@ -282,6 +300,7 @@ class Painter::Impl {
     /// Drivers are known that draw nothing and report no error. A picture is opaque, or, where it
     /// shows nothing, transparent; never in between where no edge is.
     void check_not_blank() {
+        checked_ = true;
         constexpr float kMark = 0.3F;
         constexpr int kMarkByte = 77;
         gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
@@ -307,24 +326,23 @@ class Painter::Impl {
     const Gl& gl_;
     DriverClock clock_;
     int width_px_, height_px_;
-    Camera camera_;  ///< at the motion's start
-    bool moving_ = false;
+    Camera camera_;                          ///< at the motion's start
+    bool moving_ = false, checked_ = false;  ///< checked: that the driver draws anything
     Lights lights_;
     std::optional<View> view_;
     SurfaceTable surfaces_;
     GlTexture color_;
     GlFramebuffer frame_;
     std::optional<StaticPicture> background_;
+    std::optional<StaticDrawing> drawing_;  ///< again and again, where the camera moves
     std::optional<OverlayPainter> overlay_;
     std::optional<PictureLayer> moving_layer_;
     std::optional<BallShadows> shadows_;
     std::optional<BallReflections> reflections_;
-    std::optional<BallBillboards> balls_;
-    std::optional<BallBillboards> ghosts_;  ///< of the second run
-    std::optional<PictureMean> mean_;       ///< where there is a shutter
-    std::size_t most_instants_ = 0;         ///< of one picture
-    double draw_cpu_s_ = 0;
-    double read_cpu_s_ = 0;
+    std::optional<BallBillboards> balls_, ghosts_;  ///< ghosts: of the second run
+    std::optional<PictureMean> mean_;               ///< where there is a shutter
+    std::size_t most_instants_ = 0;                 ///< of one picture
+    double draw_cpu_s_ = 0, read_cpu_s_ = 0;
 };
 
 std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
@@ -342,18 +360,15 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
     add("occlusion", surfaces_.can_occlude(), "bodies that balls can pass behind",
         "nothing that a ball could pass behind");
     add("markings", marked, "balls with a style", "all balls are plain");
-    add("ruler", overlay.ruler.has_value(), "the scene asks for it", "not asked for");
-    add("clock", overlay.clock.has_value(), "the scene asks for it", "not asked for");
-    add("labels", overlay.labels.has_value(), "the scene asks for it", "not asked for");
+    const std::pair<const char*, bool> asked[] = {
+        {"ruler", overlay.ruler.has_value()},   {"clock", overlay.clock.has_value()},
+        {"labels", overlay.labels.has_value()}, {"trail", overlay.trail.has_value()},
+        {"title", overlay.title.has_value()},   {"caption", !overlay.caption.empty()},
+        {"peaks", overlay.peaks.has_value()},   {"velocity", overlay.velocity.has_value()},
+        {"plot", overlay.plot.has_value()},     {"transparent", transparent_}};
+    for (const auto& [name, on] : asked) add(name, on, "the scene asks for it", "not asked for");
     add("verdict", scene_.test.has_value(), "the scene has a test", "the scene has no test");
-    add("trail", overlay.trail.has_value(), "the scene asks for it", "not asked for");
-    add("title", overlay.title.has_value(), "the scene asks for it", "not asked for");
-    add("caption", !overlay.caption.empty(), "the scene asks for it", "not asked for");
-    add("peaks", overlay.peaks.has_value(), "the scene asks for it", "not asked for");
-    add("velocity", overlay.velocity.has_value(), "the scene asks for it", "not asked for");
-    add("plot", overlay.plot.has_value(), "the scene asks for it", "not asked for");
     add("against", ghosts_.has_value(), "a second run as ghosts", "no second run");
-    add("transparent", transparent_, "the scene asks for it", "not asked for");
     add("motion_blur", mean_.has_value(), "film.shutter_deg is above 0", "film.shutter_deg is 0");
     if (mean_)
         result["motion_blur"].why += fmt::format("; at most {} instants a picture", most_instants_);

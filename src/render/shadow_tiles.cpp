@@ -17,10 +17,6 @@ constexpr double kAmbientReach = 3.0;
 constexpr double kFaintest = 0.004;
 /// Light that grazes a surface by less than this (cosine) draws shadows without end on it.
 constexpr double kGrazing = 0.02;
-/// Points nearer to the eye's plane are cut off there, in units of 1 / (picture height in pixels):
-/// any small positive depth serves, since what lies nearer cannot be told from it.
-constexpr double kNear = 1e-6;
-
 /// Corners of a box around the segment a ... b with square cross-sections.
 std::vector<Vec3> segment_corners(const Vec3& a, const Vec3& b, double radius, const Vec3& axis) {
     const Vec3 u = axis.unitOrthogonal() * radius, v = axis.cross(u);
@@ -31,60 +27,15 @@ std::vector<Vec3> segment_corners(const Vec3& a, const Vec3& b, double radius, c
     return corners;
 }
 
-/// An octagon around the ellipse center + cos a + sin b.
-std::vector<Vec3> octagon(const Vec3& center, const Vec3& a, const Vec3& b) {
-    const double around = 1.0 / std::cos(M_PI / 8);
-    std::vector<Vec3> corners;
-    for (int i = 0; i < 8; ++i) {
-        const double turn = (i + 0.5) * M_PI / 4;
-        corners.push_back(center + around * (std::cos(turn) * a + std::sin(turn) * b));
-    }
-    return corners;
-}
-
-double cross(const Vec2& o, const Vec2& a, const Vec2& b) {
-    return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
-}
-
-/// Andrew's monotone chain (1979).
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-    std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-    });
-    if (points.size() < 3) return points;
-    std::vector<Vec2> hull;
-    for (int half = 0; half < 2; ++half) {
-        const std::size_t base = hull.size();
-        for (const Vec2& p : points) {
-            while (hull.size() >= base + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0)
-                hull.pop_back();
-            hull.push_back(p);
-        }
-        hull.pop_back();
-        std::reverse(points.begin(), points.end());
-    }
-    return hull;
-}
-
-/// Tile index of a pixel coordinate, between -1 and `count`.
-int tile_of(double px, int count) {
-    return static_cast<int>(
-        std::clamp(std::floor(px / ShadowTiles::kTilePx), -1.0, static_cast<double>(count)));
-}
-
 }  // namespace
 
 ShadowTiles::ShadowTiles(const Scene& scene, const View& view, const Lights& lights,
                          std::vector<TileBound> seen)
     : to_light_(view_direction(view, lights.to_light)),
       tan_radius_(lights.tan_radius),
-      pixel_width_(carom::pixel_width(view)),
-      orthographic_(view.orthographic()),
-      middle_px_(0.5 * view.width_px(), 0.5 * view.height_px()),
-      columns_((view.width_px() + kTilePx - 1) / kTilePx),
-      rows_((view.height_px() + kTilePx - 1) / kTilePx),
+      grid_(view),
       seen_(std::move(seen)),
-      marked_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
+      marked_(grid_.count()) {
     for (const Surface& surface : scene.surfaces) {
         if (const auto* plane = std::get_if<PlaneShape>(&surface.shape))
             add_plane(*plane, view);
@@ -109,49 +60,8 @@ void ShadowTiles::add_body(const Vec3& center, double radius, const View& view) 
     body.center = view_point(view, center);
     body.radius = radius;
     const Vec3 axis = Vec3::UnitZ();
-    const Window seen = bound_of(segment_corners(body.center, body.center, radius, axis));
-    body.first_column = seen.first_column;
-    body.last_column = seen.last_column;
-    body.first_row = seen.first_row;
-    body.last_row = seen.last_row;
+    body.seen_in = grid_.bound_of(segment_corners(body.center, body.center, radius, axis));
     bodies_.push_back(body);
-}
-
-std::vector<Vec2> ShadowTiles::project(const std::vector<Vec3>& points) const {
-    std::vector<Vec2> result;
-    const auto add = [&](const Vec3& p) {
-        result.push_back(middle_px_ +
-                         Vec2(p.x(), p.y()) / ((orthographic_ ? 1.0 : p.z()) * pixel_width_));
-    };
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (orthographic_ || points[i].z() >= kNear) {
-            add(points[i]);
-            continue;
-        }
-        // Where the hull passes behind the eye, every line that crosses stands for its border.
-        for (const Vec3& ahead : points) {
-            if (ahead.z() < kNear) continue;
-            const double part = (ahead.z() - kNear) / (ahead.z() - points[i].z());
-            Vec3 crossing = ahead + part * (points[i] - ahead);
-            crossing.z() = kNear;
-            add(crossing);
-        }
-    }
-    return result;
-}
-
-ShadowTiles::Window ShadowTiles::bound_of(const std::vector<Vec3>& points) const {
-    const std::vector<Vec2> seen = project(points);
-    if (seen.empty()) return {0, -1, 0, -1};
-    Vec2 low = seen.front(), high = seen.front();
-    for (const Vec2& p : seen) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    return {std::max(0, tile_of(low.x() - 1, columns_)),
-            std::min(columns_ - 1, tile_of(high.x() + 1, columns_)),
-            std::max(0, tile_of(low.y() - 1, rows_)),
-            std::min(rows_ - 1, tile_of(high.y() + 1, rows_))};
 }
 
 bool ShadowTiles::reaches(std::size_t tile, const BallInView& ball) const {
@@ -167,39 +77,11 @@ bool ShadowTiles::reaches(std::size_t tile, const BallInView& ball) const {
     return along > -seen.radius && rel.squaredNorm() - along * along < key_reach * key_reach;
 }
 
-void ShadowTiles::mark_hull(const std::vector<Vec3>& points, const Window& window,
+void ShadowTiles::mark_hull(const std::vector<Vec3>& points, const ScreenTiles::Window& window,
                             const BallInView& ball) {
-    const std::vector<Vec2> hull = convex_hull(project(points));
-    if (hull.empty()) return;
-    double low = hull.front().y(), high = low;
-    for (const Vec2& p : hull) {
-        low = std::min(low, p.y());
-        high = std::max(high, p.y());
-    }
-    const int first = std::max(window.first_row, tile_of(low - 1, rows_));
-    const int last = std::min(window.last_row, tile_of(high + 1, rows_));
-    for (int row = first; row <= last; ++row) {
-        // Extent in x of the hull within this row of tiles, with a pixel around.
-        const double top = row * kTilePx - 1.0, bottom = (row + 1) * kTilePx + 1.0;
-        double left = HUGE_VAL, right = -HUGE_VAL;
-        const auto widen = [&](double x) {
-            left = std::min(left, x);
-            right = std::max(right, x);
-        };
-        for (std::size_t i = 0; i < hull.size(); ++i) {
-            const Vec2& a = hull[i];
-            const Vec2& b = hull[(i + 1) % hull.size()];
-            if (a.y() >= top && a.y() <= bottom) widen(a.x());
-            for (const double y : {top, bottom})
-                if ((a.y() - y) * (b.y() - y) < 0)
-                    widen(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
-        }
-        const int begin = std::max(window.first_column, tile_of(left - 1, columns_));
-        const int end = std::min(window.last_column, tile_of(right + 1, columns_));
-        for (int column = begin; column <= end; ++column) {
-            const std::size_t tile =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                static_cast<std::size_t>(column);
+    for (const ScreenTiles::Span& span : grid_.hull(points, window)) {
+        for (int column = span.first_column; column <= span.last_column; ++column) {
+            const std::size_t tile = grid_.index(column, span.row);
             std::vector<int>& list = marked_[tile];
             if ((list.empty() || list.back() != caster_) && reaches(tile, ball))
                 list.push_back(caster_);
@@ -217,7 +99,7 @@ void ShadowTiles::cast_on_plane(const Plane& plane, const BallInView& ball) {
         const Vec3 u = plane.normal.unitOrthogonal();
         const double r = std::sqrt(reach * reach - height * height);
         const Vec3 foot = ball.center - plane.normal * height;
-        mark_hull(octagon(foot, r * u, r * plane.normal.cross(u)), whole(), ball);
+        mark_hull(octagon_around(foot, r * u, r * plane.normal.cross(u)), grid_.whole(), ball);
     }
 
     // Key light: an ellipse where the cylinder behind the ball meets the plane, widened by the
@@ -232,17 +114,16 @@ void ShadowTiles::cast_on_plane(const Plane& plane, const BallInView& ball) {
     const Vec3 stretch =
         level.norm() > 1e-9 ? Vec3(level.normalized()) : Vec3(plane.normal.unitOrthogonal());
     const double stretched = r / std::max(kGrazing, facing - tan_radius_);
-    mark_hull(octagon(ball.center - to_light_ * (height / facing), stretched * stretch,
-                      r * plane.normal.cross(stretch)),
-              whole(), ball);
+    mark_hull(octagon_around(ball.center - to_light_ * (height / facing), stretched * stretch,
+                             r * plane.normal.cross(stretch)),
+              grid_.whole(), ball);
 }
 
 void ShadowTiles::cast_on_body(const Body& body, const BallInView& ball) {
-    const Window window = {body.first_column, body.last_column, body.first_row, body.last_row};
     const Vec3 rel = body.center - ball.center;
     const double reach = kAmbientReach * ball.radius;
     if (rel.norm() < body.radius + reach)
-        mark_hull(segment_corners(ball.center, ball.center, reach, to_light_), window, ball);
+        mark_hull(segment_corners(ball.center, ball.center, reach, to_light_), body.seen_in, ball);
 
     const double behind = -rel.dot(to_light_);  // of the body's middle, away from the lamp
     const double far = behind + body.radius;
@@ -253,7 +134,7 @@ void ShadowTiles::cast_on_body(const Body& body, const BallInView& ball) {
     const double near = std::max(0.0, behind - body.radius);
     mark_hull(segment_corners(ball.center - to_light_ * far, ball.center - to_light_ * near, r,
                               to_light_),
-              window, ball);
+              body.seen_in, ball);
 }
 
 void ShadowTiles::update(const std::vector<BallInView>& balls) {
@@ -266,11 +147,9 @@ void ShadowTiles::update(const std::vector<BallInView>& balls) {
 
     tiles_.clear();
     casters_.clear();
-    for (int row = 0; row < rows_; ++row) {
-        for (int column = 0; column < columns_; ++column) {
-            const std::vector<int>& list =
-                marked_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                        static_cast<std::size_t>(column)];
+    for (int row = 0; row < grid_.rows(); ++row) {
+        for (int column = 0; column < grid_.columns(); ++column) {
+            const std::vector<int>& list = marked_[grid_.index(column, row)];
             if (list.empty()) continue;
             for (const std::size_t value :
                  {static_cast<std::size_t>(column), static_cast<std::size_t>(row),

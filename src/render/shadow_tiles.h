@@ -5,6 +5,7 @@
 
 #include "render/balls_in_view.h"
 #include "render/lights.h"
+#include "render/screen_tiles.h"
 #include "render/static_picture.h"
 #include "scene/scene.h"
 
@@ -14,7 +15,7 @@ namespace carom {
 /// generous by up to a tile.
 class ShadowTiles {
   public:
-    static constexpr int kTilePx = 16;
+    static constexpr int kTilePx = ScreenTiles::kTilePx;
 
     /// `seen`: what is seen in each tile, to drop tiles that a shadow passes before or behind;
     /// may be empty.
@@ -36,11 +37,7 @@ class ShadowTiles {
     struct Body {
         Vec3 center = Vec3::Zero();  ///< view space
         double radius = 0;           ///< around everything
-        int first_column = 0, last_column = -1, first_row = 0,
-            last_row = -1;  ///< tiles it is seen in
-    };
-    struct Window {
-        int first_column, last_column, first_row, last_row;
+        ScreenTiles::Window seen_in{0, -1, 0, -1};
     };
 
     void add_plane(const PlaneShape& plane, const View& view);
@@ -48,19 +45,14 @@ class ShadowTiles {
     void cast_on_plane(const Plane& plane, const BallInView& ball);
     void cast_on_body(const Body& body, const BallInView& ball);
     /// Marks the tiles of `window` that the hull of the points covers for the current caster.
-    void mark_hull(const std::vector<Vec3>& points, const Window& window, const BallInView& ball);
+    void mark_hull(const std::vector<Vec3>& points, const ScreenTiles::Window& window,
+                   const BallInView& ball);
     /// False if the caster's shadow cannot reach what is seen in the tile.
     bool reaches(std::size_t tile, const BallInView& ball) const;
-    Window bound_of(const std::vector<Vec3>& points) const;
-    std::vector<Vec2> project(const std::vector<Vec3>& points) const;
-    Window whole() const { return {0, columns_ - 1, 0, rows_ - 1}; }
 
     Vec3 to_light_;  ///< view space
     double tan_radius_;
-    double pixel_width_;
-    bool orthographic_;
-    Vec2 middle_px_;
-    int columns_, rows_;
+    ScreenTiles grid_;
     std::vector<TileBound> seen_;
     std::vector<Plane> planes_;
     std::vector<Body> bodies_;

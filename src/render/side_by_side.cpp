@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
+#include "render/driver_clock.h"
 #include "render/font.h"
 #include "render/overlay_against.h"
 
 namespace carom {
 
 namespace {
-
-double thread_cpu_s() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// What is said once for both halves.
 Scene whole_scene(const Scene& scene) {

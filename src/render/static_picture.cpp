@@ -13,78 +13,21 @@ namespace {
 
 constexpr float kSky = 1e29f;  ///< depths beyond belong to no surface (surfaces.glsl: kFar)
 
-std::vector<std::string> defines_for(const View& view, const SurfaceTable& table) {
-    std::vector<std::string> defines = view_defines(view);
-    if (table.planes > 0) defines.push_back("PLANES");
-    if (table.boxes > 0) defines.push_back("BOXES");
-    if (table.spheres > 0) defines.push_back("SPHERES");
-    if (table.capsules > 0) defines.push_back("CAPSULES");
-    if (table.wood) defines.push_back("WOOD");
-    if (table.court) defines.push_back("COURT");
-    if (table.reflection) defines.push_back("REFLECTION");
-    // Parallel rays see where a plane ends that they meet edge-on.
-    if (table.count() > 1 || table.can_occlude() || view.orthographic())
-        defines.push_back("SEVERAL");
-    return defines;
-}
-
-GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines) {
-    GlProgram::Sources sources;
-    sources.name = "static picture";
-    sources.vertex = assemble_shader({}, {"fullscreen_vertex"});
-    sources.fragment =
-        assemble_shader(defines, {"surfaces", "surface_patterns", "static_fragment"});
-    sources.outputs = {"out_color", "out_front", "out_facts", "out_mirror"};
-    return GlProgram(gl, sources);
-}
-
 }  // namespace
 
-StaticPicture::StaticPicture(const Gl& gl, const View& view, const Lights& lights,
-                             const SurfaceTable& table, const PictureScale& scale, bool transparent)
-    : gl_(&gl), transparent_(transparent) {
-    const int width = view.width_px(), height = view.height_px();
+StaticPicture::StaticPicture(const Gl& gl, int width, int height, bool reflection) : gl_(&gl) {
     color_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     front_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     facts_ = make_texture(gl, GL_RGBA32UI, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-    std::vector<const GlTexture*> targets = {&color_, &front_, &facts_};
-    if (table.reflection) {
-        mirror_.emplace(make_texture(gl, GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT));
-        targets.push_back(&*mirror_);
-    }
-    all_ = make_framebuffer(gl, "the static picture", targets);
-    redraw(view, lights, table, scale);
+    if (reflection) mirror_.emplace(make_texture(gl, GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT));
     color_framebuffer_ = make_framebuffer(gl, "copies of the static picture", {&color_});
     facts_framebuffer_ = make_framebuffer(gl, "facts of the static picture", {&facts_});
 }
 
-void StaticPicture::redraw(const View& view, const Lights& lights, const SurfaceTable& table,
-                           const PictureScale& scale) {
-    const Gl& gl = *gl_;
-    std::vector<std::string> defines = defines_for(view, table);
-    if (transparent_) defines.push_back("TRANSPARENT");
-    if (!program_ || defines != defines_) {
-        program_ = make_program(gl, defines);
-        defines_ = std::move(defines);
-    }
-    const GlProgram& program = *program_;
-    set_common_uniforms(gl, program, view, lights);
-    gl.Uniform1i(program.uniform("u_surfaces"), 0);
-    gl.Uniform4i(program.uniform("u_counts"), table.planes, table.boxes, table.spheres,
-                 table.capsules);
-    gl.Uniform1f(program.uniform("u_fade_m"), static_cast<float>(scale.fade_m));
-    gl.Uniform1f(program.uniform("u_ao_reach_m"), static_cast<float>(scale.ao_reach_m));
-    GlVec4Array surfaces(gl);
-    surfaces.upload(table.vec4s);
-    surfaces.bind(0);
-
-    const GlVertexArray nothing(gl);
-    gl.BindVertexArray(nothing.name());
-    gl.BindFramebuffer(GL_FRAMEBUFFER, all_.name());
-    gl.Viewport(0, 0, view.width_px(), view.height_px());
-    gl.Disable(GL_BLEND);
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    gl.check("drawing the static picture");
+std::vector<const GlTexture*> StaticPicture::targets() const {
+    std::vector<const GlTexture*> targets = {&color_, &front_, &facts_};
+    if (mirror_) targets.push_back(&*mirror_);
+    return targets;
 }
 
 void StaticPicture::lay_over(const Image& layer) {

@@ -2,21 +2,13 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/image.h"
 #include "render/gl.h"
 #include "render/lights.h"
-#include "render/surface_table.h"
 
 namespace carom {
-
-/// Lengths that the picture's atmosphere scales with, metres.
-struct PictureScale {
-    double fade_m = 50;       ///< distance at which planes melt into the horizon
-    double ao_reach_m = 0.3;  ///< how far a crevice darkens its surroundings
-};
 
 /// A sphere around all that is seen of the static surfaces in one tile of the picture, view space.
 struct TileBound {
@@ -27,14 +19,11 @@ struct TileBound {
 /// The static picture and, per pixel, what the passes of a frame need to know about it.
 class StaticPicture {
   public:
-    /// Draws it. `gl` must outlive it. `transparent`: sky and planes are left out, but for the
-    /// shadows on them; colours are then premultiplied in linear light.
-    StaticPicture(const Gl& gl, const View& view, const Lights& lights, const SurfaceTable& table,
-                  const PictureScale& scale, bool transparent = false);
+    /// `gl` must outlive it. Nothing is in it until a StaticDrawing has drawn it.
+    StaticPicture(const Gl& gl, int width_px, int height_px, bool reflection);
 
-    /// Draws it again for another view of the same size and kind.
-    void redraw(const View& view, const Lights& lights, const SurfaceTable& table,
-                const PictureScale& scale);
+    /// What a drawing of it fills.
+    std::vector<const GlTexture*> targets() const;
 
     /// Lays a picture of the same size over the colours, in linear light: layers that do not move.
     /// By the processor, since compiling a shader for a picture's ruler would take ten times as
@@ -60,12 +49,9 @@ class StaticPicture {
 
   private:
     const Gl* gl_;
-    bool transparent_;
-    std::vector<std::string> defines_;  ///< of the program
-    std::optional<GlProgram> program_;
     GlTexture color_, front_, facts_;
     std::optional<GlTexture> mirror_;
-    GlFramebuffer all_, color_framebuffer_, facts_framebuffer_;
+    GlFramebuffer color_framebuffer_, facts_framebuffer_;
 };
 
 }  // namespace carom

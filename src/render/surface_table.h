@@ -29,6 +29,11 @@ struct SurfaceTable {
     int spheres = 0;
     int capsules = 0;
     bool wood = false, court = false, reflection = false;  ///< some surface has it
+    /// One vec4 of a record.
+    Eigen::Vector4d at(int record, int slot) const {
+        const auto first = static_cast<std::size_t>(4 * (kSurfaceVec4s * record + slot));
+        return Eigen::Vector4f(vec4s.data() + first).cast<double>();
+    }
     int count() const { return planes + boxes + spheres + capsules; }
     /// A body, which balls can pass behind; also two planes, where balls may stand behind one.
     bool can_occlude() const { return boxes + spheres + capsules > 0 || planes > 1; }

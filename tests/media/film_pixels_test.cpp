@@ -27,21 +27,21 @@ class FilmPixelsTest : public FolderTest {
 /// The decoder's own samples, without a conversion: the mean of each plane of the first frame.
 std::vector<double> plane_means(const std::string& path) {
     AVFormatContext* input = nullptr;
-    EXPECT_EQ(avformat_open_input(&input, libav_url(path).c_str(), nullptr, nullptr), 0);
-    EXPECT_GE(avformat_find_stream_info(input, nullptr), 0);
-    const AVCodec* codec = avcodec_find_decoder(input->streams[0]->codecpar->codec_id);
-    const CodecPtr decoder(avcodec_alloc_context3(codec));
-    avcodec_parameters_to_context(decoder.get(), input->streams[0]->codecpar);
-    EXPECT_EQ(avcodec_open2(decoder.get(), codec, nullptr), 0);
-    const PacketPtr packet(av_packet_alloc());
-    const FramePtr frame(av_frame_alloc());
-    while (av_read_frame(input, packet.get()) >= 0) {
-        avcodec_send_packet(decoder.get(), packet.get());
-        av_packet_unref(packet.get());
+    EXPECT_EQ(libav().avformat_open_input(&input, libav_url(path).c_str(), nullptr, nullptr), 0);
+    EXPECT_GE(libav().avformat_find_stream_info(input, nullptr), 0);
+    const AVCodec* codec = libav().avcodec_find_decoder(input->streams[0]->codecpar->codec_id);
+    const CodecPtr decoder(libav().avcodec_alloc_context3(codec));
+    libav().avcodec_parameters_to_context(decoder.get(), input->streams[0]->codecpar);
+    EXPECT_EQ(libav().avcodec_open2(decoder.get(), codec, nullptr), 0);
+    const PacketPtr packet(libav().av_packet_alloc());
+    const FramePtr frame(libav().av_frame_alloc());
+    while (libav().av_read_frame(input, packet.get()) >= 0) {
+        libav().avcodec_send_packet(decoder.get(), packet.get());
+        libav().av_packet_unref(packet.get());
     }
-    avcodec_send_packet(decoder.get(), nullptr);
-    EXPECT_EQ(avcodec_receive_frame(decoder.get(), frame.get()), 0);
-    avformat_close_input(&input);
+    libav().avcodec_send_packet(decoder.get(), nullptr);
+    EXPECT_EQ(libav().avcodec_receive_frame(decoder.get(), frame.get()), 0);
+    libav().avformat_close_input(&input);
 
     std::vector<double> means;
     for (int plane = 0; plane < 3; ++plane) {

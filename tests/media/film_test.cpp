@@ -39,16 +39,17 @@ FilmOptions small_film(int fps_numerator = 60, int fps_denominator = 1) {
 }
 
 struct CloseInput {
-    void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
+    void operator()(AVFormatContext* context) const { libav().avformat_close_input(&context); }
 };
 using Input = std::unique_ptr<AVFormatContext, CloseInput>;
 
 Input open_film(const std::string& path) {
     AVFormatContext* context = nullptr;
-    EXPECT_EQ(avformat_open_input(&context, libav_url(path).c_str(), nullptr, nullptr), 0) << path;
+    EXPECT_EQ(libav().avformat_open_input(&context, libav_url(path).c_str(), nullptr, nullptr), 0)
+        << path;
     Input input(context);
     if (input) {
-        EXPECT_GE(avformat_find_stream_info(context, nullptr), 0);
+        EXPECT_GE(libav().avformat_find_stream_info(context, nullptr), 0);
     }
     return input;
 }
@@ -56,10 +57,10 @@ Input open_film(const std::string& path) {
 /// Presentation times of all packets, sorted, in the stream's time base.
 std::vector<std::int64_t> packet_times(AVFormatContext& input) {
     std::vector<std::int64_t> times;
-    const PacketPtr packet(av_packet_alloc());
-    while (av_read_frame(&input, packet.get()) >= 0) {
+    const PacketPtr packet(libav().av_packet_alloc());
+    while (libav().av_read_frame(&input, packet.get()) >= 0) {
         times.push_back(packet->pts);
-        av_packet_unref(packet.get());
+        libav().av_packet_unref(packet.get());
     }
     std::sort(times.begin(), times.end());
     return times;
@@ -99,7 +100,7 @@ TEST_F(FilmTest, HoldsWhatPlayersNeed) {
         EXPECT_EQ(stream.color_trc, AVCOL_TRC_BT709);
         EXPECT_EQ(stream.color_range, AVCOL_RANGE_MPEG);
         EXPECT_EQ(stream.chroma_location, AVCHROMA_LOC_LEFT);
-        const AVDictionaryEntry* title = av_dict_get(input->metadata, "title", nullptr, 0);
+        const AVDictionaryEntry* title = libav().av_dict_get(input->metadata, "title", nullptr, 0);
         ASSERT_NE(title, nullptr);
         EXPECT_EQ(title->value, options.title);
     }
@@ -152,11 +153,11 @@ TEST_F(FilmTest, TheIndexStandsBeforeThePictures) {
 TEST_F(FilmTest, HasAKeyframeEverySecond) {
     const Input input = open_film(make_film("a.mp4", small_film(30), 95));
     ASSERT_TRUE(input);
-    const PacketPtr packet(av_packet_alloc());
+    const PacketPtr packet(libav().av_packet_alloc());
     int keyframes = 0;
-    while (av_read_frame(input.get(), packet.get()) >= 0) {
+    while (libav().av_read_frame(input.get(), packet.get()) >= 0) {
         if ((packet->flags & AV_PKT_FLAG_KEY) != 0) ++keyframes;
-        av_packet_unref(packet.get());
+        libav().av_packet_unref(packet.get());
     }
     EXPECT_GE(keyframes, 4);
     EXPECT_LE(keyframes, 8);

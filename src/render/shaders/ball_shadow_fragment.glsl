@@ -1,7 +1,9 @@
 // What the balls take from the light of a static pixel, as a factor of its colour.
 
-uniform usampler2D u_facts;  // static_picture.h
+// In the order in which ball_fragment.glsl has them: llvmpipe counts what the program before has
+// bound in a buffer's place as part of a shader, and would compile again.
 uniform samplerBuffer u_casters;
+uniform usampler2D u_facts;  // static_picture.h
 
 flat in ivec2 v_list;  // first caster, number of casters
 
@@ -29,14 +31,16 @@ void main() {
     // Where an edge passes, both layers take their share; elsewhere there is one.
     float factor = 1.0;
     int layers = facts.x == facts.y ? 1 : 2;
-    for (int layer = 0; layer < layers; ++layer) {
+    int layer = 0;
+    do {  // leaving at the end, as in surfaces.glsl
         float t = uintBitsToFloat(layer == 0 ? facts.x : facts.y);
         float part = layers == 1 ? 1.0 : (layer == 0 ? front_part : 1.0 - front_part);
         if (t > 1e29) continue;  // the sky
         vec3 p = start + t * d;
         float blur = pixel_at(t);
         float key = 1.0, open = 1.0;
-        for (int i = 0; i < v_list.y; ++i) {
+        int i = 0;
+        do {  // every tile has a caster
             vec4 caster = texelFetch(u_casters, v_list.x + i);
             vec3 rel = caster.xyz - p;
             float along = dot(rel, u_light);
@@ -48,9 +52,9 @@ void main() {
             float near2 = min(caster.w * caster.w / away2, 1.0);
             float fade = max(1.0 - away2 / (kAmbientReach2 * caster.w * caster.w), 0.0);
             open *= 1.0 - 0.92 * fade * near2 * max(dot(n, rel), 0.0) * inversesqrt(away2);
-        }
+        } while (++i < v_list.y);
         // Nothing is shaded in the sky: there both parts are 0.
         factor -= part * (direct * (1.0 - key) + ambient * (1.0 - open));
-    }
+    } while (++layer < layers);
     out_factor = vec4(vec3(factor), 1.0 - factor);
 }

@@ -61,11 +61,12 @@ float reflected_part(Hit hit, vec3 d) {
 // `taps` of three heights, beginning with `first`.
 float open_sky(vec3 p, vec3 n, int item, int first, int taps) {
     float closed = 0.0;
-    for (int i = 0; i < taps; ++i) {
+    int i = 0;
+    do {
         float k = float(first + i + 1);
         float h = u_ao_reach_m * k * k / 9.0;
         closed += 1.0 - clamp(nearest_distance(p + n * h, item), 0.0, h) / h;
-    }
+    } while (++i < taps);
     return 1.0 - 0.75 * closed / float(max(taps, 1));
 }
 
@@ -189,7 +190,8 @@ void main() {
     vec4 mirror = vec4(0.0);
 #endif
     int last = 1;
-    for (int i = 0; i < last; ++i) {
+    int i = 0;
+    do {
         vec2 at = vec2(0.0);
         int fine = i - 1 - kProbes;
         if (i > 0) {
@@ -245,7 +247,7 @@ void main() {
                 front_weight += 1.0;
             }
         }
-    }
+    } while (++i < last);
     float front_part = front_weight / weight;
 #ifdef TRANSPARENT
     out_color = vec4(color, opaque) / weight;

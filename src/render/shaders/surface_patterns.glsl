@@ -50,7 +50,8 @@ vec3 planks(vec2 x, vec2 w, vec3 light, vec3 dark, float contrast) {
     const float kMeanTone = 0.36;
     float tone = 0.0, gap = 0.0, all = 0.0;
     float first = floor(x.x - 0.5 * w.x), last = min(floor(x.x + 0.5 * w.x), first + 2.0);
-    for (float row = first; row <= last; ++row) {
+    float row = first;
+    do {
         float part = min(row + 1.0, x.x + 0.5 * w.x) - max(row, x.x - 0.5 * w.x);
         float y = x.y / kLength + hashed(row, -7.0), wy = w.y / kLength;
         float begin = floor(y - 0.5 * wy);
@@ -60,7 +61,7 @@ vec3 planks(vec2 x, vec2 w, vec3 light, vec3 dark, float contrast) {
         tone += part * (mix(one, other, later) - 0.5 + 0.42 * grain(x - vec2(row, 0.0), w, mine));
         gap += part * filtered_lines(y, wy, kGap / kLength);
         all += part;
-    }
+    } while (++row <= last);
     // More than two rows or planks in a pixel: their mean.
     float melt = max(smoothstep(1.0, 2.0, w.x), smoothstep(0.6, 1.5, w.y / kLength));
     tone = kMeanTone + contrast * (1.0 - melt) * tone / max(all, 1e-6);

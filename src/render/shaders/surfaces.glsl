@@ -1,9 +1,17 @@
 // Rays, shadows and distances of the static surfaces (surface_table.h says what a record holds).
 // PLANES, BOXES, SPHERES and CAPSULES are defined where the scene has such; a software rasteriser
-// runs through every branch, so that code for what is not there would cost as much as the rest.
+// runs through every branch, so that code for what is not there would cost as much as the rest. It
+// also runs through a loop's body once more after the last lane has left at the top: loops leave at
+// their end instead, and what a list does not hold is passed by in the body.
 
 uniform samplerBuffer u_surfaces;
 uniform ivec4 u_counts;  // planes, boxes, spheres, capsules
+
+// Lists of bodies, part of the picture by part (body_tiles.h): first entry, then where the entries of
+// boxes, spheres and capsules end.
+uniform samplerBuffer u_listed;
+flat in ivec4 v_seen;     // bodies that rays may meet
+flat in ivec4 v_shading;  // bodies that may take light
 
 const float kFar = 1e30;
 const int kSection = -2;  // and below: the cut through plane kSection - item
@@ -17,6 +25,8 @@ const vec3 g_start = vec3(0.0);
 #endif
 
 vec4 surface(int item, int slot) { return texelFetch(u_surfaces, item * 8 + slot); }
+
+int listed(int entry) { return int(texelFetch(u_listed, entry).x); }
 
 struct Hit {
     float t;      // depth, kFar for the sky
@@ -48,7 +58,8 @@ void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
 
 #ifdef PLANES
 void meet_planes(inout Hit hit, vec3 d) {
-    for (int i = 0; i < u_counts.x; ++i) {
+    int i = 0;
+    do {
         vec4 plane = surface(i, 0);
         float toward = dot(plane.xyz, d), under = plane.w - dot(plane.xyz, g_start);
         if (toward < -1e-7) take(hit, under / toward, i, plane.xyz, 0, d);
@@ -59,14 +70,16 @@ void meet_planes(inout Hit hit, vec3 d) {
             if (under > 0.0) hit.item = kSection - i;
         }
 #endif
-    }
+    } while (++i < u_counts.x);
 }
 #endif
 
 #ifdef BOXES
 void meet_boxes(inout Hit hit, vec3 d) {
-    for (int i = 0; i < u_counts.y; ++i) {
-        int item = u_counts.x + i;
+    int i = v_seen.x;
+    do {
+        bool here = i < v_seen.y;
+        int item = listed(i);
         vec4 center = surface(item, 0) - vec4(g_start, 0.0);
         vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
         vec3 half_edge = vec3(rx.w, ry.w, rz.w);
@@ -85,9 +98,9 @@ void meet_boxes(inout Hit hit, vec3 d) {
         vec3 enter_wide = middle - wider, leave_wide = middle + wider;
         float wide_in = max(max(enter_wide.x, enter_wide.y), enter_wide.z);
         float wide_out = min(min(leave_wide.x, leave_wide.y), leave_wide.z);
-        bool near_miss = wide_in < wide_out && wide_out > 0.0;
+        bool near_miss = here && wide_in < wide_out && wide_out > 0.0;
 
-        if (t_in < t_out && t_in > 0.0) {
+        if (here && t_in < t_out && t_in > 0.0) {
             int axis = enter.x == t_in ? 0 : (enter.y == t_in ? 1 : 2);
             vec3 along = axis == 0 ? vec3(1, 0, 0) : (axis == 1 ? vec3(0, 1, 0) : vec3(0, 0, 1));
             vec3 n_box = -sign(rd) * along;
@@ -105,25 +118,27 @@ void meet_boxes(inout Hit hit, vec3 d) {
         } else if (near_miss && wide_in < hit.t) {
             hit.edge = true;
         }
-    }
+    } while (++i < v_seen.y);
 }
 #endif
 
 #ifdef SPHERES
 void meet_spheres(inout Hit hit, vec3 d) {
     float dd = dot(d, d);
-    for (int i = 0; i < u_counts.z; ++i) {
-        int item = u_counts.x + u_counts.y + i;
+    int i = v_seen.y;
+    do {
+        bool here = i < v_seen.z;
+        int item = listed(i);
         vec4 sphere = surface(item, 0) - vec4(g_start, 0.0);
         float middle = dot(sphere.xyz, d) / dd;
         vec3 across = sphere.xyz - d * middle;
         float q = dot(across, across);
         float reach = sphere.w * sphere.w - q;
         float t = middle - sqrt(max(reach, 0.0) / dd);
-        if (abs(sqrt(q) - sphere.w) < kEdgeReach * pixel_at(middle) && t < hit.t) hit.edge = true;
-        if (reach > 0.0 && t > 0.0)
+        if (here && abs(sqrt(q) - sphere.w) < kEdgeReach * pixel_at(middle) && t < hit.t) hit.edge = true;
+        if (here && reach > 0.0 && t > 0.0)
             take(hit, t, item, (t * d - sphere.xyz) / sphere.w, 0, d);
-    }
+    } while (++i < v_seen.z);
 }
 #endif
 
@@ -140,8 +155,10 @@ vec2 ray_to_segment(vec3 d, vec3 a, vec3 b) {
 
 void meet_capsules(inout Hit hit, vec3 d) {
     float dd = dot(d, d);
-    for (int i = 0; i < u_counts.w; ++i) {
-        int item = u_counts.x + u_counts.y + u_counts.z + i;
+    int i = v_seen.z;
+    do {
+        bool here = i < v_seen.w;
+        int item = listed(i);
         vec4 a = surface(item, 0) - vec4(g_start, 0.0);
         vec3 b = surface(item, 1).xyz;
         vec2 nearest = ray_to_segment(d, a.xyz, b);
@@ -165,14 +182,14 @@ void meet_capsules(inout Hit hit, vec3 d) {
             float reach = a.w * a.w - dot(across, across);
             if (reach > 0.0) t = min(t, middle - sqrt(reach / dd));
         }
-        if (abs(nearest.x - a.w) < kEdgeReach * pixel_at(nearest.y) && nearest.y - a.w < hit.t)
+        if (here && abs(nearest.x - a.w) < kEdgeReach * pixel_at(nearest.y) && nearest.y - a.w < hit.t)
             hit.edge = true;
-        if (t > 0.0 && t < kFar) {
+        if (here && t > 0.0 && t < kFar) {
             vec3 p = t * d - a.xyz;
             vec3 n = (p - b * clamp(dot(p, b) / bb, 0.0, 1.0)) / a.w;
             take(hit, t, item, n, 0, d);
         }
-    }
+    } while (++i < v_seen.w);
 }
 #endif
 
@@ -204,12 +221,13 @@ float key_visibility(vec3 p, vec3 px, vec3 py, int own, int first, int samples) 
     vec3 side = normalize(abs(u_light.x) < 0.7 ? cross(u_light, vec3(1, 0, 0))
                                                : cross(u_light, vec3(0, 1, 0)));
     vec3 side2 = cross(u_light, side);
-    for (int i = 0; i < u_counts.y; ++i) {
-        int item = u_counts.x + i;
+    int i = v_shading.x;
+    do {
+        int item = listed(i);
         vec4 center = surface(item, 0);
         vec3 rel = center.xyz - p;
         float along = dot(rel, u_light);
-        bool near = length(rel - along * u_light) < center.w + max(along, 0.0) * u_light_tan &&
+        bool near = i < v_shading.y && length(rel - along * u_light) < center.w + max(along, 0.0) * u_light_tan &&
                     along > -center.w && item != own;
         vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
         vec3 half_edge = vec3(rx.w, ry.w, rz.w);
@@ -227,7 +245,8 @@ float key_visibility(vec3 p, vec3 px, vec3 py, int own, int first, int samples) 
         float hidden = 0.0;
         float start = (float(first) + 0.5) * 2.39996323;
         vec2 spoke = vec2(cos(start), sin(start));
-        for (int k = 0; k < n; ++k) {
+        int k = 0;
+        do {
             // Sunflower spiral: even over the disc for any count. A step turns by the golden angle.
             float place = float(first + k) + 0.5;
             vec2 disc = sqrt(place / 64.0) * u_light_tan * spoke;
@@ -243,29 +262,31 @@ float key_visibility(vec3 p, vec3 px, vec3 py, int own, int first, int samples) 
             vec3 enter = middle - reach, leave = middle + reach;
             float t_in = max(max(enter.x, enter.y), enter.z);
             float t_out = min(min(leave.x, leave.y), leave.z);
-            hidden += t_in < t_out && t_out > 0.0 ? 1.0 : 0.0;
-        }
+            hidden += k < n && t_in < t_out && t_out > 0.0 ? 1.0 : 0.0;
+        } while (++k < n);
         visible *= 1.0 - hidden / float(max(n, 1));
-    }
+    } while (++i < v_shading.y);
 #endif
 #ifdef SPHERES
-    for (int i = 0; i < u_counts.z; ++i) {
-        int item = u_counts.x + u_counts.y + i;
+    int j = v_shading.y;
+    do {
+        int item = listed(j);
         vec4 sphere = surface(item, 0);
         vec3 rel = sphere.xyz - p;
         float along = dot(rel, u_light);
-        if (item != own && along > 0.0)
+        if (j < v_shading.z && item != own && along > 0.0)
             visible *= 1.0 - hidden_by_ball(along, length(rel - along * u_light), sphere.w, blur);
-    }
+    } while (++j < v_shading.z);
 #endif
 #ifdef CAPSULES
-    for (int i = 0; i < u_counts.w; ++i) {
-        int item = u_counts.x + u_counts.y + u_counts.z + i;
+    int k = v_shading.z;
+    do {
+        int item = listed(k);
         vec4 a = surface(item, 0);
         vec2 nearest = ray_to_segment(u_light, a.xyz - p, surface(item, 1).xyz);
-        if (item != own && nearest.y > 0.0)
+        if (k < v_shading.w && item != own && nearest.y > 0.0)
             visible *= 1.0 - hidden_by_ball(nearest.y, nearest.x, a.w, blur);
-    }
+    } while (++k < v_shading.w);
 #endif
     return visible;
 }
@@ -273,36 +294,42 @@ float key_visibility(vec3 p, vec3 px, vec3 py, int own, int first, int samples) 
 // Distance from p to the nearest surface other than `own` (negative inside).
 float nearest_distance(vec3 p, int own) {
     float nearest = kFar;
-    int item = 0;
 #ifdef PLANES
-    for (int i = 0; i < u_counts.x; ++i, ++item) {
-        vec4 plane = surface(item, 0);
-        if (item != own) nearest = min(nearest, dot(plane.xyz, p) - plane.w);
-    }
+    int plane_item = 0;
+    do {
+        vec4 plane = surface(plane_item, 0);
+        if (plane_item != own) nearest = min(nearest, dot(plane.xyz, p) - plane.w);
+    } while (++plane_item < u_counts.x);
 #endif
 #ifdef BOXES
-    for (int i = 0; i < u_counts.y; ++i, ++item) {
+    int i = v_shading.x;
+    do {
+        int item = listed(i);
         vec4 rx = surface(item, 1), ry = surface(item, 2), rz = surface(item, 3);
         vec3 rel = p - surface(item, 0).xyz;
         vec3 q = abs(vec3(dot(rx.xyz, rel), dot(ry.xyz, rel), dot(rz.xyz, rel))) -
                  vec3(rx.w, ry.w, rz.w);
         float away = length(max(q, 0.0)) + min(max(max(q.x, q.y), q.z), 0.0);
-        if (item != own) nearest = min(nearest, away);
-    }
+        if (i < v_shading.y && item != own) nearest = min(nearest, away);
+    } while (++i < v_shading.y);
 #endif
 #ifdef SPHERES
-    for (int i = 0; i < u_counts.z; ++i, ++item) {
+    int j = v_shading.y;
+    do {
+        int item = listed(j);
         vec4 sphere = surface(item, 0);
-        if (item != own) nearest = min(nearest, length(p - sphere.xyz) - sphere.w);
-    }
+        if (j < v_shading.z && item != own) nearest = min(nearest, length(p - sphere.xyz) - sphere.w);
+    } while (++j < v_shading.z);
 #endif
 #ifdef CAPSULES
-    for (int i = 0; i < u_counts.w; ++i, ++item) {
+    int k = v_shading.z;
+    do {
+        int item = listed(k);
         vec4 a = surface(item, 0);
         vec3 b = surface(item, 1).xyz, rel = p - a.xyz;
         float along = clamp(dot(rel, b) / max(dot(b, b), 1e-20), 0.0, 1.0);
-        if (item != own) nearest = min(nearest, length(rel - b * along) - a.w);
-    }
+        if (k < v_shading.w && item != own) nearest = min(nearest, length(rel - b * along) - a.w);
+    } while (++k < v_shading.w);
 #endif
     return nearest;
 }

@@ -1,0 +1,31 @@
+// Which bodies the static picture's shader has to look at, part of the picture by part.
+#pragma once
+
+#include <vector>
+
+#include "render/lights.h"
+#include "render/picture_scale.h"
+#include "render/surface_table.h"
+
+namespace carom {
+
+/// Rectangles that cover the picture once, each with two lists of bodies (boxes, spheres, capsules
+/// of the table): those that rays through its pixels may meet or pass by within a pixel, and those
+/// that may take light from what is seen there. Bodies that are not listed would change nothing.
+struct BodyTiles {
+    /// Per rectangle: left, top, right, bottom [px]; of either list the first entry and where its
+    /// boxes, spheres and capsules end (whole numbers).
+    std::vector<float> rectangles;
+    static constexpr int kRectangleFloats = 12;
+    /// A vec4 per entry: x is the record in the table. One more at the end, so that the shader can
+    /// read where an empty list begins.
+    std::vector<float> entries;
+};
+
+BodyTiles sort_into_tiles(const SurfaceTable& table, const View& view, const Lights& lights,
+                          const PictureScale& scale);
+
+/// One rectangle, in which all bodies count.
+BodyTiles all_bodies_everywhere(const SurfaceTable& table, const View& view);
+
+}  // namespace carom

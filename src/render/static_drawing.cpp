@@ -1,0 +1,117 @@
+#include "render/static_drawing.h"
+
+#include "render/driver_clock.h"
+
+namespace carom {
+
+namespace {
+
+std::vector<std::string> defines_for(const View& view, const SurfaceTable& table) {
+    std::vector<std::string> defines = view_defines(view);
+    if (table.planes > 0) defines.push_back("PLANES");
+    if (table.boxes > 0) defines.push_back("BOXES");
+    if (table.spheres > 0) defines.push_back("SPHERES");
+    if (table.capsules > 0) defines.push_back("CAPSULES");
+    if (table.wood) defines.push_back("WOOD");
+    if (table.court) defines.push_back("COURT");
+    if (table.reflection) defines.push_back("REFLECTION");
+    // Parallel rays see where a plane ends that they meet edge-on.
+    if (table.count() > 1 || table.can_occlude() || view.orthographic())
+        defines.push_back("SEVERAL");
+    return defines;
+}
+
+GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines) {
+    GlProgram::Sources sources;
+    sources.name = "static picture";
+    sources.vertex = assemble_shader({}, {"static_vertex"});
+    sources.fragment =
+        assemble_shader(defines, {"surfaces", "surface_patterns", "static_fragment"});
+    sources.attributes = {"a_rectangle", "a_seen", "a_shading"};
+    sources.outputs = {"out_color", "out_front", "out_facts", "out_mirror"};
+    return GlProgram(gl, sources);
+}
+
+void draw_rectangles(const Gl& gl, const BodyTiles& tiles) {
+    const GlVertexArray vertex_array(gl);
+    const GlBuffer buffer(gl);
+    gl.BindVertexArray(vertex_array.name());
+    gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
+    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.rectangles.size() * sizeof(float)),
+                  tiles.rectangles.data(), GL_STREAM_DRAW);
+    constexpr std::size_t kStride = BodyTiles::kRectangleFloats * sizeof(float);
+    for (GLuint i = 0; i < BodyTiles::kRectangleFloats / 4; ++i) {
+        gl.EnableVertexAttribArray(i);
+        gl.VertexAttribDivisor(i, 1);
+        gl.VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kStride),
+                               reinterpret_cast<const void*>(std::size_t{i} * 4 * sizeof(float)));
+    }
+    gl.DrawArraysInstanced(
+        GL_TRIANGLE_STRIP, 0, 4,
+        static_cast<GLsizei>(tiles.rectangles.size() / BodyTiles::kRectangleFloats));
+}
+
+}  // namespace
+
+void StaticDrawing::aim(const StaticPicture& target) {
+    framebuffer_ = make_framebuffer(*gl_, "the static picture", target.targets());
+}
+
+void StaticDrawing::compile(const View& view, const SurfaceTable& table) {
+    std::vector<std::string> defines = defines_for(view, table);
+    if (transparent_) defines.push_back("TRANSPARENT");
+    if (program_ && defines == defines_) return;
+    program_ = make_program(*gl_, defines);
+    defines_ = std::move(defines);
+}
+
+void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
+                         const PictureScale& scale) {
+    draw(view, lights, table, scale, sort_into_tiles(table, view, lights, scale));
+}
+
+void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
+                         const PictureScale& scale, const BodyTiles& tiles) {
+    const Gl& gl = *gl_;
+    compile(view, table);
+    const GlProgram& program = *program_;
+    set_common_uniforms(gl, program, view, lights);
+    gl.Uniform2f(program.uniform("u_size"), static_cast<float>(view.width_px()),
+                 static_cast<float>(view.height_px()));
+    gl.Uniform1i(program.uniform("u_surfaces"), 0);
+    gl.Uniform1i(program.uniform("u_listed"), 1);
+    gl.Uniform4i(program.uniform("u_counts"), table.planes, table.boxes, table.spheres,
+                 table.capsules);
+    gl.Uniform1f(program.uniform("u_fade_m"), static_cast<float>(scale.fade_m));
+    gl.Uniform1f(program.uniform("u_ao_reach_m"), static_cast<float>(scale.ao_reach_m));
+    GlVec4Array surfaces(gl), listed(gl);
+    surfaces.upload(table.vec4s);
+    surfaces.bind(0);
+    listed.upload(tiles.entries);
+    listed.bind(1);
+
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    gl.Viewport(0, 0, view.width_px(), view.height_px());
+    gl.Disable(GL_BLEND);
+    draw_rectangles(gl, tiles);
+    gl.check("drawing the static picture");
+}
+
+double draw_aside(const OffscreenContext& owner, const StaticContents& contents,
+                  std::future<const StaticPicture*> target) {
+    const double begin = thread_cpu_s();
+    OffscreenContext context(owner);
+    const Gl& gl = context.gl();
+    gl.Disable(GL_DITHER);
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    {
+        StaticDrawing drawing(gl, contents.transparent);
+        drawing.compile(contents.view, contents.table);
+        drawing.aim(*target.get());
+        drawing.draw(contents.view, contents.lights, contents.table, contents.scale);
+        gl.Finish();
+    }
+    return thread_cpu_s() - begin;
+}
+
+}  // namespace carom
