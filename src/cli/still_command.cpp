@@ -110,6 +110,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     painting.against = second ? &second->run : nullptr;
     painting.few_pictures = painting.width_px * painting.height_px <= kFewPixels;
     if (painting.few_pictures) prefer_quick_compile();
+    painting.only_at = options.time;
     Painter painter(*scene, simulated.motion, painting);
     Image picture;
     painter.paint_strobe(instants(options), picture);

@@ -181,6 +181,22 @@ void BallReflections::draw(const std::vector<BallInView>& balls, const StaticPic
     }
 }
 
+void BallReflections::compile(const StaticPicture& background, const GlFramebuffer& frame) {
+    if (mirrors_.empty()) return;
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, layer_framebuffer_.name());
+    balls_.set_mirror(mirrors_.front().normal, mirrors_.front().offset, lights_);
+    balls_.compile(background);
+    compile_blending(background, frame);
+}
+
+void BallReflections::compile_blending(const StaticPicture& background,
+                                       const GlFramebuffer& frame) {
+    if (mirrors_.empty()) return;
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, frame.name());
+    blend_layer(mirrors_.front(), {Part{0, 0, 0, 0}}, background);
+    gl_->Viewport(0, 0, 0, 0);
+}
+
 void BallReflections::blend_layer(const Mirror& mirror, const std::vector<Part>& parts,
                                   const StaticPicture& background) {
     const auto f = [](double x) { return static_cast<float>(x); };

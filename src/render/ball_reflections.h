@@ -45,6 +45,11 @@ class BallReflections {
     void draw(const std::vector<BallInView>& balls, const StaticPicture& background,
               const GlFramebuffer& frame);
 
+    /// Has its programs compiled, without drawing anything: into a viewport without extent, which
+    /// is the whole picture then.
+    void compile(const StaticPicture& background, const GlFramebuffer& frame);
+    void compile_blending(const StaticPicture& background, const GlFramebuffer& frame);
+
     /// All images that draw() would show.
     std::vector<BallInView> images(const std::vector<BallInView>& balls) const;
 

@@ -52,10 +52,15 @@ class Painter::Impl {
         camera_ = part_ != nullptr ? part_->camera
                   : joined_        ? choose_camera(joined_->scene, joined_->motion, aspect)
                                    : choose_camera(scene, motion, aspect);
-        moving_ = camera_moves(camera_);
-        const Camera camera = camera_at(camera_, camera_motion(), scene.film.start);
+        // For one sharp picture the camera stands where it is then.
+        const bool stands = options.only_at && !(scene.film.shutter_deg > 0);
+        moving_ = camera_moves(camera_) && !stands;
+        const Camera start = camera_at(camera_, camera_motion(), scene.film.start);
+        const Camera camera =
+            stands ? camera_at(camera_, camera_motion(), *options.only_at) : start;
         const View& view = view_.emplace(camera, width_px_, height_px_);
-        lights_ = choose_lights(view);  // the lamp stays where it is, however the camera moves
+        // The lamp stays where it is, however the camera moves.
+        lights_ = choose_lights(View(start, width_px_, height_px_));
         surfaces_ = make_surface_table(scene, view);
 
         // Of a camera that stands, the static picture takes about as long as everything else: it is
@@ -181,10 +186,13 @@ class Painter::Impl {
     void compile() {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
         gl_.Viewport(0, 0, 0, 0);
-        // llvmpipe compiles again where a program before has bound a texture in a buffer's place.
-        if (moving_layer_) moving_layer_->draw();
+        // llvmpipe compiles again where a program before has bound a texture in a buffer's place: in
+        // the order of a frame, from what one leaves behind.
+        if (reflections_) reflections_->compile_blending(*background_, frame_);
+        if (moving_layer_) moving_layer_->compile();
         if (shadows_) shadows_->compile(*background_);
-        if (reflections_) return;
+        if (reflections_) reflections_->compile(*background_, frame_);
+        if (moving_layer_) moving_layer_->compile();
         balls_->compile(*background_);
         if (ghosts_) ghosts_->compile(*background_);
     }
@@ -377,8 +385,7 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
 
 Painter::Painter(const Scene& scene, const Motion& motion, const PainterOptions& options) {
     if (options.against != nullptr && options.against->view == AgainstView::kSide)
-        halves_ = std::make_unique<SideBySide>(scene, motion, *options.against, options.width_px,
-                                               options.height_px, options.few_pictures);
+        halves_ = std::make_unique<SideBySide>(scene, motion, options);
     else
         impl_ = std::make_unique<Impl>(scene, motion, options);
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct PainterOptions {
     const SecondRun* against = nullptr;  ///< a run to show with the first; must outlive the painter
     const PicturePart* part = nullptr;   ///< this is half of a picture (render/side_by_side.h)
     bool few_pictures = false;  ///< programs that compile soon rather than draw fast; same pixels
+    std::optional<double> only_at =
+        {};  ///< s: no other instant will be painted last (paint_strobe())
 };
 
 class SideBySide;

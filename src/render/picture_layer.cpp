@@ -1,6 +1,7 @@
 #include "render/picture_layer.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/check.h"
 #include "render/tile_program.h"
@@ -75,14 +76,26 @@ void PictureLayer::draw() {
         filled_count_ = static_cast<int>(tiles.size() / 4);
         tiles_changed_ = false;
     }
-    if (filled_count_ == 0) return;
+    draw_tiles(filled_count_);
+}
+
+void PictureLayer::compile() {
+    constexpr std::array<float, 4> kFirstTile{};
+    gl_->BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
+    gl_->BufferData(GL_ARRAY_BUFFER, sizeof(kFirstTile), kFirstTile.data(), GL_DYNAMIC_DRAW);
+    tiles_changed_ = true;
+    draw_tiles(1);
+}
+
+void PictureLayer::draw_tiles(int count) {
+    if (count == 0) return;
     program_.use();
     gl_->ActiveTexture(GL_TEXTURE0);
     gl_->BindTexture(GL_TEXTURE_2D, texture_.name());
     gl_->BindVertexArray(vertex_array_.name());
     gl_->Enable(GL_BLEND);
     gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, filled_count_);
+    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
 }  // namespace carom

@@ -21,7 +21,12 @@ class PictureLayer {
     /// Blends the layer in linear light into the framebuffer that is bound.
     void draw();
 
+    /// Has the program compiled: draws a tile, for a viewport without extent.
+    void compile();
+
   private:
+    void draw_tiles(int count);
+
     static constexpr int kTilePx = 32;
     bool tile_is_empty(const Image& layer, int column, int row) const;
 

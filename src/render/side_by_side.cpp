@@ -77,33 +77,31 @@ PicturePart SideBySide::part_of(const Motion& motion) const {
     return part;
 }
 
-SideBySide::SideBySide(const Scene& scene, const Motion& motion, const SecondRun& second,
-                       int width_px, int height_px, bool few_pictures)
-    : second_(second),
-      width_px_(width_px),
-      height_px_(height_px),
-      divider_px_(divider_px(width_px, height_px)),
-      half_px_((width_px - divider_px_) / 2),
-      joined_(join_runs(scene, motion, second)),
+SideBySide::SideBySide(const Scene& scene, const Motion& motion, const PainterOptions& whole)
+    : second_(*whole.against),
+      width_px_(whole.width_px),
+      height_px_(whole.height_px),
+      divider_px_(divider_px(width_px_, height_px_)),
+      half_px_((width_px_ - divider_px_) / 2),
+      joined_(join_runs(scene, motion, second_)),
       whole_scene_(whole_scene(scene)),
       left_scene_(half_scene(scene, false)),
       right_scene_(half_scene(scene, true)),
       divider_(palette_of(scene.overlay.theme).paper) {
     // The view of the whole is only asked for its size: nothing here stands in the scene.
-    const View view(Camera{}, width_px, height_px);
+    const View view(Camera{}, width_px_, height_px_);
     overlay_ = std::make_unique<OverlayPainter>(whole_scene_, motion, view,
-                                                OverlayPainter::Runs{&second, nullptr, false, {}});
+                                                OverlayPainter::Runs{&second_, nullptr, false, {}});
     part_ = part_of(motion);
     const auto half = [&](const Scene& half_scene, const Motion& half_motion) {
-        PainterOptions options;
+        PainterOptions options = whole;
+        options.against = nullptr;
         options.width_px = half_px_;
-        options.height_px = height_px_;
         options.part = &part_;
-        options.few_pictures = few_pictures;
         return std::make_unique<Painter>(half_scene, half_motion, options);
     };
     left_ = half(left_scene_, motion);
-    right_ = half(right_scene_, second.motion);
+    right_ = half(right_scene_, second_.motion);
 }
 
 void SideBySide::paint(const std::vector<double>& instants, Image& out) {

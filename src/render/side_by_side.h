@@ -25,8 +25,7 @@ struct PicturePart {
 class SideBySide {
   public:
     /// All must outlive it.
-    SideBySide(const Scene& scene, const Motion& motion, const SecondRun& second, int width_px,
-               int height_px, bool few_pictures);
+    SideBySide(const Scene& scene, const Motion& motion, const PainterOptions& whole);
 
     void paint(const std::vector<double>& instants, Image& out);
     std::string renderer() const { return left_->renderer(); }
