@@ -186,8 +186,8 @@ class Painter::Impl {
     void compile() {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
         gl_.Viewport(0, 0, 0, 0);
-        // llvmpipe compiles again where a program before has bound a texture in a buffer's place: in
-        // the order of a frame, from what one leaves behind.
+        // llvmpipe compiles again where a program before has bound a texture in a buffer's place:
+        // in the order of a frame, from what one leaves behind.
         if (reflections_) reflections_->compile_blending(*background_, frame_);
         if (moving_layer_) moving_layer_->compile();
         if (shadows_) shadows_->compile(*background_);
