@@ -23,6 +23,10 @@ constexpr double kBalanced = 1e-12;
 /// Integrated velocities leave this fraction of the speeds of a 0.
 constexpr double kRoundingSpeed = 1e-11;
 
+/// Where there are more balls, three that touch will soon touch others, as in a box into which they
+/// are poured: they are stepped from the beginning.
+constexpr std::size_t kFewBalls = 20;
+
 /// An island whose laws change all the time, as between balls that are being poured, is stepped for
 /// a while: so many pieces on end are shorter than a step.
 constexpr int kMostShortPieces = 60;
@@ -59,7 +63,9 @@ bool is_still(const LinkedBalls& system, const LinkedState& state, const LinkedF
 
 /// The island as a system of its own. False if it is too large, or not together.
 bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedIsland& is) const {
-    if (island.size() > kMostLinkedBalls || world_.scene.simulation.gravity.isZero(0)) return false;
+    const bool many = world_.balls.size() > kFewBalls;
+    if (island.size() > (many ? 2 : kMostLinkedBalls)) return false;
+    if (world_.scene.simulation.gravity.isZero(0)) return false;
     LinkedBalls& system = is.system;
     system.gravity = world_.scene.simulation.gravity;
     system.ball_count = island.size();
