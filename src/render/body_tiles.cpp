@@ -284,7 +284,11 @@ std::array<float, 4> Sorter::range_of(const Set& set, BodyTiles& tiles) {
     const auto [found, is_new] = ranges_.try_emplace(set);
     if (!is_new) return found->second;
     const std::array<int, 3> kinds = {table_.boxes, table_.spheres, table_.capsules};
-    found->second[0] = static_cast<float>(tiles.entries.size() / 4);
+    const auto filled = [&tiles] {
+        const std::size_t vec4s = tiles.entries.size() / 4;
+        return static_cast<float>(vec4s);
+    };
+    found->second[0] = filled();
     std::size_t body = 0;
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
         for (int i = 0; i < kinds[kind]; ++i, ++body) {
@@ -293,7 +297,7 @@ std::array<float, 4> Sorter::range_of(const Set& set, BodyTiles& tiles) {
                 static_cast<float>(body + static_cast<std::size_t>(table_.planes)));
             tiles.entries.insert(tiles.entries.end(), 3, 0.0F);
         }
-        found->second[kind + 1] = static_cast<float>(tiles.entries.size() / 4);
+        found->second[kind + 1] = filled();
     }
     return found->second;
 }
