@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "scenes.h"
+#include "exact_scenes.h"
 
 namespace carom::testing {
 namespace {
@@ -25,20 +25,6 @@ double largest_speed(const Scene& scene, const Motion& motion, double t) {
         speed = std::max({speed, s.velocity.norm(), scene.balls[i].radius * s.spin.norm()});
     }
     return speed;
-}
-
-/// Kinetic and potential energy over z = 0 [J].
-double energy(const Scene& scene, const Motion& motion, double t) {
-    double sum = 0;
-    for (std::size_t i = 0; i < scene.balls.size(); ++i) {
-        const Ball& b = scene.balls[i];
-        const BallState s = motion.balls[i].at(t);
-        sum += 0.5 * b.mass *
-               (s.velocity.squaredNorm() +
-                b.inertia_factor * b.radius * b.radius * s.spin.squaredNorm());
-        sum -= b.mass * scene.simulation.gravity.dot(s.position);
-    }
-    return sum;
 }
 
 /// The deepest overlap of any two balls, or of a ball and a plane [m].
@@ -210,10 +196,10 @@ TEST(ExactIslands, PouredBallsComeToRest) {
     for (const auto& [count, depth_bound] : {std::pair{10, 1e-5}, {30, 5e-5}}) {
         Scene scene = poured(count, 0.3);
         const SimulationResult r = run(scene, 4);
-        const double start = energy(scene, r.motion, 0);
+        const double start = total_energy(scene, r.motion, 0);
         double least = start, gain = 0, depth = -1;
         for (double t = 0; t <= 4; t += 0.005) {
-            const double e = energy(scene, r.motion, t);
+            const double e = total_energy(scene, r.motion, t);
             gain = std::max(gain, (e - least) / start);
             least = std::min(least, e);
             depth = std::max(depth, deepest(scene, r.motion, t));

@@ -38,6 +38,14 @@ inline double kinetic_energy(const Scene& scene, const Motion& motion, double t)
     return sum;
 }
 
+/// Kinetic and potential energy over z = 0 [J].
+inline double total_energy(const Scene& scene, const Motion& motion, double t) {
+    double sum = kinetic_energy(scene, motion, t);
+    for (std::size_t i = 0; i < scene.balls.size(); ++i)
+        sum -= scene.balls[i].mass * scene.simulation.gravity.dot(motion.balls[i].at(t).position);
+    return sum;
+}
+
 inline Vec3 momentum(const Scene& scene, const Motion& motion, double t) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < scene.balls.size(); ++i)

@@ -140,25 +140,9 @@ TEST(LinkedBalls, RollsAndSlidesOffHeldBallThatTurns) {
         }
 }
 
-/// Kinetic and potential energy of all balls, J.
-double energy_of(const Scene& scene, const Motion& motion, double t) {
-    double sum = 0;
-    for (std::size_t i = 0; i < scene.balls.size(); ++i) {
-        const Ball& b = scene.balls[i];
-        const BallState s = motion.balls[i].at(t);
-        sum += 0.5 * b.mass *
-                   (s.velocity.squaredNorm() +
-                    b.inertia_factor * b.radius * b.radius * s.spin.squaredNorm()) -
-               b.mass * scene.simulation.gravity.dot(s.position);
-    }
-    return sum;
-}
-
-// Ball 1 rolls on the floor and ball 0 on it. Nothing but the floor's friction F acts along x from
-// outside, and M's spin about y takes it up: with the spins w, w' the sum
-// m v + M V + (k M R w + k m r w')_y ... is read off Lagrange's equation for x, whose momentum
-// m v + M V + k M R W + k m r w keeps its value (v = V + D cos(angle) angle', R W = V,
-// r w = D angle' - V).
+// Ball 1 rolls on the floor, and ball 0 on it. Lagrange's equations have the place along x as a
+// cyclic coordinate: its momentum m v + M V + k M R W - k m r w keeps its value, W and w the spins
+// about y.
 TEST(LinkedBalls, RollsOffBallThatRolls) {
     for (const double mass : {0.5, 1.0, 5.0}) {
         BallOnBall b = ball_on_ball(10, 10, 0.1, 0.3, mass);
@@ -167,12 +151,12 @@ TEST(LinkedBalls, RollsOffBallThatRolls) {
         const SimulationResult r = run(b.scene, 0.3);
         ASSERT_EQ(r.report.steps, 0);
         const Motion& m = r.motion;
-        const double start = energy_of(b.scene, m, 0);
+        const double start = total_energy(b.scene, m, 0);
         double energy = 0, momentum = 0, slip = 0, angle = 0;
         for (double t = 0; t <= 0.3; t += 0.01) {
             const BallState top = m.balls[0].at(t), below = m.balls[1].at(t);
             const Vec3 n = (top.position - below.position).normalized();
-            energy = std::max(energy, std::abs(energy_of(b.scene, m, t) - start));
+            energy = std::max(energy, std::abs(total_energy(b.scene, m, t) - start));
             momentum = std::max(momentum, std::abs(top.velocity.x() + mass * below.velocity.x() +
                                                    kSolid * mass * 0.3 * below.spin.y() -
                                                    kSolid * 0.1 * top.spin.y()));
@@ -256,9 +240,9 @@ TEST(LinkedBalls, HitFromOutside) {
             const double hit = impacts.front().time;
             EXPECT_LT(hit, 0.197);
             const Vec3 start = momentum(b.scene, r.motion, 0);
-            double least = energy_of(b.scene, r.motion, 0), rise = 0, drift = 0, overlap = 0;
+            double least = total_energy(b.scene, r.motion, 0), rise = 0, drift = 0, overlap = 0;
             for (double t = 0; t <= 1; t += 1e-3) {
-                const double energy = energy_of(b.scene, r.motion, t);
+                const double energy = total_energy(b.scene, r.motion, t);
                 rise = std::max(rise, energy - least);
                 least = std::min(least, energy);
                 const Vec3 p = momentum(b.scene, r.motion, t) - start;
