@@ -1,6 +1,5 @@
 // carom still: one picture of one instant.
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "cli/cpu_timer.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
+#include "cli/large_pages.h"
 #include "cli/options.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
@@ -70,14 +70,8 @@ std::vector<double> instants(const StillOptions& options) {
     return result;
 }
 
-/// A still ends before memory could run short: it is asked for in large parts, and not handed back.
-void ask_for_memory_in_large_parts() {
-    mallopt(M_TOP_PAD, 64 << 20);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-}
-
 int still(const StillOptions& options, const Interrupt& interrupt) {
-    ask_for_memory_in_large_parts();
+    prefer_large_pages();
     Stats stats;
     check_output(options);
     std::optional<FilmScenes> scenes;
