@@ -74,6 +74,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     prefer_large_pages();
     Stats stats;
     check_output(options);
+    const DriverPreload driver;
     std::optional<FilmScenes> scenes;
     {
         const CpuTimer timer(stats.scene_cpu_s);

@@ -1,12 +1,13 @@
 #include "render/offscreen.h"
 
-#include <GL/osmesa.h>
 #include <fmt/core.h>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 
 #include "core/failure.h"
+#include "render/osmesa_table.h"
 
 namespace carom {
 
@@ -14,6 +15,15 @@ namespace {
 
 constexpr int kDummyEdge = 16;  ///< pixels; OSMesa wants some memory, no drawing goes there
 constexpr int kMajor = 3, kMinor = 3;
+
+std::atomic<bool> quick_compile = false;
+
+/// What the driver reads of the environment; once it is loaded, since a loader reads it as well.
+void set_environment() {
+    osmesa();
+    // llvmpipe leaves out optimization: a quarter of a still's time. A setting of the user's stays.
+    if (quick_compile) ::setenv("GALLIVM_PERF", "nopt", 0);
+}
 
 std::string text_of(const Gl& gl, GLenum what) {
     const GLubyte* text = gl.GetString(what);
@@ -25,6 +35,7 @@ std::string text_of(const Gl& gl, GLenum what) {
 class OffscreenContext::Impl {
   public:
     explicit Impl(OSMesaContext sharing) {
+        if (sharing == nullptr) set_environment();
         const std::array<int, 9> attributes = {OSMESA_FORMAT,
                                                OSMESA_RGBA,
                                                OSMESA_PROFILE,
@@ -34,26 +45,26 @@ class OffscreenContext::Impl {
                                                OSMESA_CONTEXT_MINOR_VERSION,
                                                kMinor,
                                                0};
-        context_ = OSMesaCreateContextAttribs(attributes.data(), sharing);
+        context_ = osmesa().OSMesaCreateContextAttribs(attributes.data(), sharing);
         if (context_ == nullptr)
             throw Failure(FailureKind::kRun,
                           fmt::format("OSMesa gives no OpenGL {}.{} core context", kMajor, kMinor));
         try {
             make_current();
-            gl_ = Gl::load(&OSMesaGetProcAddress);
+            gl_ = Gl::load(osmesa().OSMesaGetProcAddress);
             check_version();
         } catch (...) {
-            OSMesaDestroyContext(context_);
+            osmesa().OSMesaDestroyContext(context_);
             throw;
         }
     }
-    ~Impl() { OSMesaDestroyContext(context_); }
+    ~Impl() { osmesa().OSMesaDestroyContext(context_); }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
     void make_current() {
-        if (OSMesaGetCurrentContext() == context_) return;
-        if (OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummyEdge, kDummyEdge) !=
+        if (osmesa().OSMesaGetCurrentContext() == context_) return;
+        if (osmesa().OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummyEdge, kDummyEdge) !=
             GL_TRUE)
             throw Failure(FailureKind::kRun, "OSMesa cannot make its context current");
     }
@@ -78,10 +89,16 @@ class OffscreenContext::Impl {
     Gl gl_;
 };
 
-void prefer_quick_compile() {
-    // llvmpipe leaves out optimization: a quarter of a still's time. A setting of the user's stays.
-    ::setenv("GALLIVM_PERF", "nopt", 0);
-}
+void prefer_quick_compile() { quick_compile = true; }
+
+DriverPreload::DriverPreload()
+    : thread_([] {
+          try {
+              osmesa();
+          } catch (const Failure&) {
+              // The first context says it.
+          }
+      }) {}
 
 OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>(nullptr)) {}
 OffscreenContext::OffscreenContext(const OffscreenContext& sharing)

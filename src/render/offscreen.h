@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "render/gl.h"
 
@@ -12,6 +13,16 @@ namespace carom {
 /// Asks the driver to compile shaders quickly rather than well, for a process that draws one
 /// picture of ordinary size: to be called before its first context. The pixels are the same.
 void prefer_quick_compile();
+
+/// Loads the driver in another thread, which takes as long as a scene's simulation does: to be made
+/// before that. A driver that cannot be loaded is said by the first context.
+class DriverPreload {
+  public:
+    DriverPreload();
+
+  private:
+    std::jthread thread_;
+};
 
 /// Owns one context of OpenGL 3.3 core. OSMesa draws into memory of the caller; carom draws into
 /// its own framebuffer objects instead, so that memory is a 16 x 16 dummy.

@@ -21,10 +21,10 @@
 #include "render/driver_clock.h"
 #include "render/exposure.h"
 #include "render/offscreen.h"
-#include "render/overlay.h"
 #include "render/picture_layer.h"
 #include "render/picture_mean.h"
 #include "render/picture_scale.h"
+#include "render/picture_setup.h"
 #include "render/shadow_tiles.h"
 #include "render/side_by_side.h"
 #include "render/static_drawing.h"
@@ -42,35 +42,21 @@ class Painter::Impl {
           against_(options.against),
           part_(options.part),
           transparent_(scene.background == Background::kTransparent),
-          gl_(context_.gl()),
           width_px_(options.width_px),
-          height_px_(options.height_px) {
+          height_px_(options.height_px),
+          setup_(scene, motion, options),
+          draw_cpu_s_(thread_cpu_s() - begin_s_),
+          gl_(context_.gl()) {
         check_size();
         const double begin = clock_.now_s();
-        const double aspect = static_cast<double>(width_px_) / height_px_;
-        if (against_ != nullptr) joined_.emplace(join_runs(scene, motion, *against_));
-        camera_ = part_ != nullptr ? part_->camera
-                  : joined_        ? choose_camera(joined_->scene, joined_->motion, aspect)
-                                   : choose_camera(scene, motion, aspect);
-        // For one sharp picture the camera stands where it is then.
-        const bool stands = options.only_at && !(scene.film.shutter_deg > 0);
-        moving_ = camera_moves(camera_) && !stands;
-        const Camera start = camera_at(camera_, camera_motion(), scene.film.start);
-        const Camera camera =
-            stands ? camera_at(camera_, camera_motion(), *options.only_at) : start;
-        const View& view = view_.emplace(camera, width_px_, height_px_);
-        // The lamp stays where it is, however the camera moves.
-        lights_ = choose_lights(View(start, width_px_, height_px_));
-        surfaces_ = make_surface_table(scene, view);
-
         // Of a camera that stands, the static picture takes about as long as everything else: it is
         // drawn meanwhile. (An exception here breaks the promise, so that the thread ends.)
-        const PictureScale scale = scale_of(scene, camera);
         std::future<double> drawn;
         std::promise<const StaticPicture*> target;
-        if (!moving_)
+        if (!setup_.moving)
             drawn = std::async(std::launch::async, draw_aside, std::cref(context_),
-                               StaticContents{view, lights_, surfaces_, scale, transparent_},
+                               StaticContents{setup_.view, setup_.lights, setup_.surfaces,
+                                              setup_.scale, transparent_},
                                target.get_future());
 
         gl_.Disable(GL_DITHER);
@@ -79,19 +65,18 @@ class Painter::Impl {
         color_ =
             make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
         frame_ = make_framebuffer(gl_, "the picture", {&color_});
-        background_.emplace(gl_, width_px_, height_px_, surfaces_.reflection);
+        background_.emplace(gl_, width_px_, height_px_, setup_.surfaces.reflection);
         target.set_value(&*background_);
-        if (moving_) drawing_.emplace(gl_, transparent_).aim(*background_);
-        set_overlay(view);
-        const Image static_layer = moving_ ? Image() : overlay_->static_under_layer();
-        make_passes(options, view, scale);
-        if (!moving_) {
+        if (setup_.moving) drawing_.emplace(gl_, transparent_).aim(*background_);
+        const Image static_layer = setup_.moving ? Image() : setup_.overlay.static_under_layer();
+        make_passes(options);
+        if (!setup_.moving) {
             compile();
             draw_cpu_s_ += drawn.get();
             if (static_layer.width_px != 0) background_->lay_over(static_layer);
             // For a few pictures it is not worth the while to find out.
             if (shadows_ && !options.few_pictures)
-                shadows_->set_view(scene, view, lights_, seen_in_tiles());
+                shadows_->set_view(scene, setup_.view, setup_.lights, seen_in_tiles());
             check_not_blank();
         }
         gl_.check("preparing the picture");
@@ -120,7 +105,7 @@ class Painter::Impl {
         const bool blurred = exposed.size() > 1;
         most_instants_ = std::max(most_instants_, exposed.size());
         if (blurred) sum_exposure(exposed, t);
-        if (moving_) {
+        if (setup_.moving) {
             move_camera(t);
             if (!checked_) check_not_blank();
         }
@@ -133,7 +118,7 @@ class Painter::Impl {
         gl_.check("drawing a frame");
         const double read = clock_.now_s();
         if (transparent_) encode_alpha(out);
-        overlay_->draw_over(t, out);
+        setup_.overlay.draw_over(t, out);
         draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
         read_cpu_s_ += read - drawn;
     }
@@ -148,8 +133,6 @@ class Painter::Impl {
 
   private:
     void check_size() const {
-        CAROM_CHECK(width_px_, >, 0);
-        CAROM_CHECK(height_px_, >, 0);
         GLint largest = 0;
         gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
         if (width_px_ <= largest && height_px_ <= largest) return;
@@ -160,23 +143,25 @@ class Painter::Impl {
     }
 
     /// The programs of each frame.
-    void make_passes(const PainterOptions& options, const View& view, const PictureScale& scale) {
-        if (overlay_->has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
-        const bool on_surfaces = moving_ ? !scene_.surfaces.empty() : surfaces_.count() > 0;
-        if (on_surfaces && !scene_.balls.empty()) shadows_.emplace(gl_, scene_, view, lights_);
+    void make_passes(const PainterOptions& options) {
+        const View& view = setup_.view;
+        const Lights& lights = setup_.lights;
+        const bool occluded = setup_.surfaces.can_occlude();
+        if (setup_.overlay.has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
+        const bool on_surfaces = setup_.moving ? !scene_.surfaces.empty() : setup_.surfaces.count() > 0;
+        if (on_surfaces && !scene_.balls.empty()) shadows_.emplace(gl_, scene_, view, lights);
         const BallPrograms programs =
             options.few_pictures ? BallPrograms::kOneForAll : BallPrograms::kEachStyle;
         if (wants_reflection(scene_) && !scene_.balls.empty() && !transparent_)
-            reflections_.emplace(gl_, scene_, view, lights_, scale, programs);
-        balls_.emplace(gl_, scene_, view, lights_, surfaces_.can_occlude(), programs);
+            reflections_.emplace(gl_, scene_, view, lights, setup_.scale, programs);
+        balls_.emplace(gl_, scene_, view, lights, occluded, programs);
         if (against_ != nullptr) {
             constexpr double kGhostOutlinePx = 2.2;  // at 720
             const Ink ink = ghost_ink(scene_.overlay.theme);
             const GhostLook look{
                 {linear_from_srgb(ink.r), linear_from_srgb(ink.g), linear_from_srgb(ink.b)},
                 std::max(1.2, overlay_px(kGhostOutlinePx, height_px_))};
-            ghosts_.emplace(gl_, against_->scene, view, lights_, surfaces_.can_occlude(), programs,
-                            look);
+            ghosts_.emplace(gl_, against_->scene, view, lights, occluded, programs, look);
         }
         if (scene_.film.shutter_deg > 0) mean_.emplace(gl_, width_px_, height_px_);
     }
@@ -188,6 +173,7 @@ class Painter::Impl {
         gl_.Viewport(0, 0, 0, 0);
         // llvmpipe compiles again where a program before has bound a texture in a buffer's place:
         // in the order of a frame, from what one leaves behind.
+        if (mean_) mean_->compile(color_, frame_);
         if (reflections_) reflections_->compile_blending(*background_, frame_);
         if (moving_layer_) moving_layer_->compile();
         if (shadows_) shadows_->compile(*background_);
@@ -198,37 +184,32 @@ class Painter::Impl {
     }
 
     std::vector<TileBound> seen_in_tiles() const {
-        if (!surfaces_.can_occlude()) return {};  // on one plane the shadows' own bounds are tight
-        return background_->tile_bounds(*view_, ShadowTiles::kTilePx);
+        if (!setup_.surfaces.can_occlude()) return {};  // on one plane the shadows' own bounds are tight
+        return background_->tile_bounds(setup_.view, ShadowTiles::kTilePx);
     }
 
     /// Everything that depends on the view, for the camera's place at t.
     void move_camera(double t) {
-        const Camera camera = camera_at(camera_, camera_motion(), t);
-        const View& view = view_.emplace(camera, width_px_, height_px_);
-        surfaces_ = make_surface_table(scene_, view);
-        drawing_->draw(view, lights_, surfaces_, scale_of(scene_, camera));
-        overlay_->set_view(view);
+        const Camera camera = camera_at(setup_.camera, camera_motion(), t);
+        const Lights& lights = setup_.lights;
+        const View& view = setup_.view = View(camera, width_px_, height_px_);
+        setup_.surfaces = make_surface_table(scene_, view);
+        setup_.scale = scale_of(scene_, camera);
+        drawing_->draw(view, lights, setup_.surfaces, setup_.scale);
+        setup_.overlay.set_view(view);
         draw_static_layer();
-        if (shadows_) shadows_->set_view(scene_, view, lights_, seen_in_tiles());
-        balls_->set_view(view, lights_);
-        if (reflections_) reflections_->set_view(view, lights_, scale_of(scene_, camera));
-        if (ghosts_) ghosts_->set_view(view, lights_);
+        if (shadows_) shadows_->set_view(scene_, view, lights, seen_in_tiles());
+        balls_->set_view(view, lights);
+        if (reflections_) reflections_->set_view(view, lights, setup_.scale);
+        if (ghosts_) ghosts_->set_view(view, lights);
     }
 
     const Motion& camera_motion() const {
         return part_ != nullptr ? *part_->camera_motion : motion_;
     }
 
-    void set_overlay(const View& view) {
-        OverlayPainter::Runs runs;
-        if (against_ != nullptr) runs = {against_, &*joined_, true, nullptr};
-        if (part_ != nullptr) runs = {nullptr, part_->joined, false, &part_->taken};
-        overlay_.emplace(scene_, motion_, view, runs);
-    }
-
     Bodies bodies_at(const std::vector<double>& instants) const {
-        return carom::bodies_at(instants, scene_, motion_, against_, *view_);
+        return carom::bodies_at(instants, scene_, motion_, against_, setup_.view);
     }
 
     /// Everything below the text, at the view as it is; of the background, the part in `bounds`.
@@ -244,9 +225,9 @@ class Painter::Impl {
     std::vector<double> exposure_at(double t) const {
         const Exposure exposure(scene_.film, motion_.duration, t);
         double way =
-            moving_ ? camera_way_px(camera_, camera_motion(), exposure, width_px_, height_px_) : 0;
+            setup_.moving ? camera_way_px(setup_.camera, camera_motion(), exposure, width_px_, height_px_) : 0;
         // Balls are seen from where the camera is at t.
-        const View view(camera_at(camera_, camera_motion(), t), width_px_, height_px_);
+        const View view(camera_at(setup_.camera, camera_motion(), t), width_px_, height_px_);
         way += ball_way_px(scene_, motion_, exposure, view);
         if (against_ != nullptr)
             way = std::max(way, ball_way_px(against_->scene, against_->motion, exposure, view));
@@ -257,7 +238,7 @@ class Painter::Impl {
     void sum_exposure(const std::vector<double>& instants, double t) {
         TileMask mask(width_px_, height_px_, PictureMean::kTilePx);
         std::vector<Bodies> bodies;
-        if (moving_) {
+        if (setup_.moving) {
             mask.add_all();
         } else {
             for (const double instant : instants) bodies.push_back(bodies_at({instant}));
@@ -265,8 +246,8 @@ class Painter::Impl {
         }
         mean_->begin(mask, static_cast<int>(instants.size()));
         for (std::size_t i = 0; i < instants.size(); ++i) {
-            if (moving_) move_camera(instants[i]);
-            draw_picture(moving_ ? bodies_at({instants[i]}) : bodies[i], t, mask.bounds());
+            if (setup_.moving) move_camera(instants[i]);
+            draw_picture(setup_.moving ? bodies_at({instants[i]}) : bodies[i], t, mask.bounds());
             mean_->add(color_);
         }
     }
@@ -274,9 +255,9 @@ class Painter::Impl {
     /// The tiles of the balls and of the shadows that they cast.
     void mark_bodies(const Bodies& bodies, TileMask& mask) {
         static_assert(PictureMean::kTilePx == ShadowTiles::kTilePx);
-        mark_balls(bodies.balls, *view_, mask);
-        mark_balls(bodies.ghosts, *view_, mask);
-        if (reflections_) mark_balls(reflections_->images(bodies.balls), *view_, mask);
+        mark_balls(bodies.balls, setup_.view, mask);
+        mark_balls(bodies.ghosts, setup_.view, mask);
+        if (reflections_) mark_balls(reflections_->images(bodies.balls), setup_.view, mask);
         if (!shadows_) return;
         const std::vector<float>& tiles = shadows_->tiles_of(bodies.balls);
         for (std::size_t i = 0; i < tiles.size(); i += 4)
@@ -284,15 +265,15 @@ class Painter::Impl {
     }
 
     void draw_static_layer() {
-        const Image layer = overlay_->static_under_layer();
+        const Image layer = setup_.overlay.static_under_layer();
         if (layer.width_px != 0) background_->lay_over(layer);
     }
 
     void draw_moving_layer(double t) {
-        OverlayPainter::Rect changed = overlay_->update_moving_under_layer(t);
-        if (moving_) changed = {0, 0, width_px_, height_px_};  // the one before saw another view
+        OverlayPainter::Rect changed = setup_.overlay.update_moving_under_layer(t);
+        if (setup_.moving) changed = {0, 0, width_px_, height_px_};  // the one before saw another view
         if (!changed.empty())
-            moving_layer_->update(overlay_->moving_under_layer(), changed.x, changed.y,
+            moving_layer_->update(setup_.overlay.moving_under_layer(), changed.x, changed.y,
                                   changed.width, changed.height);
         moving_layer_->draw();
     }
@@ -328,29 +309,26 @@ class Painter::Impl {
     const Motion& motion_;
     const SecondRun* against_;
     const PicturePart* part_;
-    std::optional<JoinedRuns> joined_;
     bool transparent_;
+    int width_px_, height_px_;
+    double begin_s_ = thread_cpu_s();
+    PictureSetup setup_;  // as its driver is loaded meanwhile, before the context
+    double draw_cpu_s_;
     OffscreenContext context_;  // outlives every owner of GL objects below
     const Gl& gl_;
     DriverClock clock_;
-    int width_px_, height_px_;
-    Camera camera_;                          ///< at the motion's start
-    bool moving_ = false, checked_ = false;  ///< checked: that the driver draws anything
-    Lights lights_;
-    std::optional<View> view_;
-    SurfaceTable surfaces_;
+    bool checked_ = false;  ///< that the driver draws anything
     GlTexture color_;
     GlFramebuffer frame_;
     std::optional<StaticPicture> background_;
     std::optional<StaticDrawing> drawing_;  ///< again and again, where the camera moves
-    std::optional<OverlayPainter> overlay_;
     std::optional<PictureLayer> moving_layer_;
     std::optional<BallShadows> shadows_;
     std::optional<BallReflections> reflections_;
     std::optional<BallBillboards> balls_, ghosts_;  ///< ghosts: of the second run
     std::optional<PictureMean> mean_;               ///< where there is a shutter
     std::size_t most_instants_ = 0;                 ///< of one picture
-    double draw_cpu_s_ = 0, read_cpu_s_ = 0;
+    double read_cpu_s_ = 0;
 };
 
 std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
@@ -365,7 +343,7 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
     add("shadows", shadows_.has_value(), "balls over surfaces", "no ball, or no surface in view");
     add("reflection", reflections_.has_value(), "a look with a reflection",
         transparent_ ? "not on a transparent background" : "no look asks for it");
-    add("occlusion", surfaces_.can_occlude(), "bodies that balls can pass behind",
+    add("occlusion", setup_.surfaces.can_occlude(), "bodies that balls can pass behind",
         "nothing that a ball could pass behind");
     add("markings", marked, "balls with a style", "all balls are plain");
     const std::pair<const char*, bool> asked[] = {

@@ -1,6 +1,7 @@
 #include "render/picture_mean.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/check.h"
@@ -79,35 +80,50 @@ void PictureMean::begin(const TileMask& mask, int count) {
     gl_->BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(float)),
                     tiles.data(), GL_STREAM_DRAW);
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    gl_->ClearColor(0, 0, 0, 0);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
 }
 
-void PictureMean::draw_tiles(const GlTexture& from, double weight) {
+void PictureMean::compile(const GlTexture& picture, const GlFramebuffer& target) {
+    constexpr std::array<float, 4> kFirstTile{};
+    gl_->BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
+    gl_->BufferData(GL_ARRAY_BUFFER, sizeof(kFirstTile), kFirstTile.data(), GL_STREAM_DRAW);
+    tiles_ = 1;
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    draw_tiles(picture, 0, true);
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, target.name());
+    draw_tiles(sum_, 0, false);
+}
+
+void PictureMean::draw_tiles(const GlTexture& from, double weight, bool added) {
+    if (added) {
+        gl_->Enable(GL_BLEND);
+        gl_->BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+    } else {
+        gl_->Disable(GL_BLEND);
+    }
     program_.use();
     gl_->Uniform1f(program_.uniform("u_weight"), static_cast<float>(weight));
     gl_->ActiveTexture(GL_TEXTURE0);
     gl_->BindTexture(GL_TEXTURE_2D, from.name());
     gl_->BindVertexArray(vertex_array_.name());
-    gl_->Viewport(0, 0, width_px_, height_px_);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, tiles_);
 }
 
 void PictureMean::add(const GlTexture& picture) {
     CAROM_CHECK(added_, <, count_);
+    ++added_;
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    if (added_++ == 0) {
-        gl_->Disable(GL_BLEND);  // what was there before counts no more
-    } else {
-        gl_->Enable(GL_BLEND);
-        gl_->BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
-    }
-    draw_tiles(picture, 1.0 / count_);
+    gl_->Viewport(0, 0, width_px_, height_px_);
+    draw_tiles(picture, 1.0 / count_, true);
 }
 
 void PictureMean::write(const GlFramebuffer& target) {
     CAROM_CHECK(added_, ==, count_);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, target.name());
-    gl_->Disable(GL_BLEND);
-    draw_tiles(sum_, 1.0);
+    gl_->Viewport(0, 0, width_px_, height_px_);
+    draw_tiles(sum_, 1.0, false);
 }
 
 }  // namespace carom

@@ -40,6 +40,8 @@ class PictureMean {
     /// `gl` must outlive it.
     PictureMean(const Gl& gl, int width_px, int height_px);
 
+    /// Has the driver compile, in a viewport without extent, for such a picture and target.
+    void compile(const GlTexture& picture, const GlFramebuffer& target);
     /// Begins a mean of `count` pictures in the tiles of `mask`.
     void begin(const TileMask& mask, int count);
     /// Adds a picture; its texture must not be bound for drawing when this is called.
@@ -48,7 +50,7 @@ class PictureMean {
     void write(const GlFramebuffer& target);
 
   private:
-    void draw_tiles(const GlTexture& from, double weight);
+    void draw_tiles(const GlTexture& from, double weight, bool added);
 
     const Gl* gl_;
     int width_px_, height_px_;
