@@ -71,7 +71,7 @@ Vec3 linear(const Color& c) {
 }  // namespace
 
 BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& view,
-                               const Lights& lights, bool occluded, BallPrograms programs,
+                               const Lights& lights, const BallSurroundings& around,
                                const std::optional<GhostLook>& ghost, Kind kind)
     : gl_(&gl),
       scene_(&scene),
@@ -79,29 +79,29 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
       body_shade_(scene, view, lights),
       to_light_(view_direction(view, lights.to_light)),
       light_tan_(lights.tan_radius),
-      occluded_(occluded),
       vertex_array_(gl),
       instance_buffer_(gl),
       caster_array_(gl) {
     const std::set<LookStyle> styles = styles_in(scene);
+    const bool for_all = around.programs == BallPrograms::kOneForAll;
+    const bool images = kind == Kind::kImages, both = for_all && !ghost;
+    with_static_ = around.occluded && (both || !images);
+    with_mirrors_ = around.mirrored && (both || images);
     for (const LookStyle style : styles) {
-        const bool for_all = programs == BallPrograms::kOneForAll;
         if (for_all && !programs_.empty()) break;
         GlProgram program = make_program(gl, for_all ? styles : std::set<LookStyle>{style}, view,
-                                         occluded, ghost.has_value(), kind == Kind::kMirrored);
-        set_common_uniforms(gl, program, view, lights);
+                                         with_static_, ghost.has_value(), with_mirrors_);
+        set_common_uniforms(program, view, lights);
         if (ghost) {
-            const auto f = [](double value) { return static_cast<float>(value); };
-            gl.Uniform3f(program.uniform("u_ghost"), f(ghost->color.x()), f(ghost->color.y()),
-                         f(ghost->color.z()));
-            gl.Uniform1f(program.uniform("u_outline"), f(ghost->outline_px));
+            program.set("u_ghost", ghost->color);
+            program.set("u_outline", ghost->outline_px);
         }
-        gl.Uniform2f(program.uniform("u_size"), static_cast<float>(view.width_px()),
-                     static_cast<float>(view.height_px()));
-        gl.Uniform1i(program.uniform("u_facts"), 0);
-        gl.Uniform1i(program.uniform("u_front"), 1);
-        gl.Uniform1i(program.uniform("u_mirror"), 1);
-        gl.Uniform1i(program.uniform("u_casters"), 2);
+        program.set("u_size", Vec2(view.width_px(), view.height_px()));
+        program.set("u_facts", 0);
+        program.set("u_front", 1);
+        program.set("u_mirror", 3);
+        program.set("u_casters", 2);
+        program.set("u_is_image", images ? 1 : 0);
         programs_.emplace(style, std::move(program));
     }
     gl.BindVertexArray(vertex_array_.name());
@@ -117,7 +117,7 @@ void BallBillboards::set_view(const View& view, const Lights& lights) {
     body_shade_ = BodyShade(*scene_, view, lights);
     mirror_.reset();
     to_light_ = view_direction(view, lights.to_light);
-    for (const auto& [style, program] : programs_) set_common_uniforms(*gl_, program, view, lights);
+    for (auto& [style, program] : programs_) set_common_uniforms(program, view, lights);
 }
 
 void BallBillboards::set_mirror(const Vec3& normal, double offset, const Lights& lights) {
@@ -125,15 +125,11 @@ void BallBillboards::set_mirror(const Vec3& normal, double offset, const Lights&
     mirror_ = MirrorPlane{normal, offset};
     to_light_ = flipped(view_direction(view_, lights.to_light));
     const Vec3 up = flipped(view_direction(view_, Vec3::UnitZ()));
-    const auto f = [](double value) { return static_cast<float>(value); };
-    for (const auto& [style, program] : programs_) {
-        program.use();
-        gl_->Uniform3f(program.uniform("u_mirror_normal"), f(normal.x()), f(normal.y()),
-                       f(normal.z()));
-        gl_->Uniform1f(program.uniform("u_mirror_offset"), f(offset));
-        gl_->Uniform3f(program.uniform("u_up"), f(up.x()), f(up.y()), f(up.z()));
-        gl_->Uniform3f(program.uniform("u_light"), f(to_light_.x()), f(to_light_.y()),
-                       f(to_light_.z()));
+    for (auto& [style, program] : programs_) {
+        program.set("u_mirror_normal", normal);
+        program.set("u_mirror_offset", offset);
+        program.set("u_up", up);
+        program.set("u_light", to_light_);
     }
 }
 
@@ -151,7 +147,7 @@ LookStyle BallBillboards::style_of(const BallInView& ball) const {
     return ball_style(scene_->looks[static_cast<std::size_t>(ball.look)].style);
 }
 
-const GlProgram& BallBillboards::program_of(LookStyle style) const {
+GlProgram& BallBillboards::program_of(LookStyle style) {
     return programs_.size() == 1 ? programs_.begin()->second : programs_.at(style);
 }
 
@@ -252,7 +248,7 @@ void BallBillboards::draw_ghosts(const std::vector<BallInView>& ghosts,
 void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
                                     const StaticPicture& background) {
     instances_.clear();
-    std::vector<const GlProgram*> programs;  // of the balls that may be seen
+    std::vector<GlProgram*> programs;  // of the balls that may be seen
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (!may_be_seen(balls[i], view_)) continue;
         append_instance(balls[i], shade_on(balls[i]), casters.first[i], casters.count[i]);
@@ -262,24 +258,24 @@ void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const 
 }
 
 void BallBillboards::compile(const StaticPicture& background) {
-    std::vector<const GlProgram*> programs;
-    for (const auto& [style, program] : programs_) programs.push_back(&program);
+    std::vector<GlProgram*> programs;
+    for (auto& [style, program] : programs_) programs.push_back(&program);
     instances_.assign(programs.size() * kInstanceFloats, 0.0F);
     draw_runs(programs, {}, background);
 }
 
-void BallBillboards::draw_runs(const std::vector<const GlProgram*>& programs,
+void BallBillboards::draw_runs(const std::vector<GlProgram*>& programs,
                                const std::vector<float>& casters, const StaticPicture& background) {
     caster_array_.upload(casters);
     caster_array_.bind(2);
-    if (occluded_) {
+    if (with_static_) {
         gl_->ActiveTexture(GL_TEXTURE1);
         gl_->BindTexture(GL_TEXTURE_2D, background.front().name());
         gl_->ActiveTexture(GL_TEXTURE0);
         gl_->BindTexture(GL_TEXTURE_2D, background.facts().name());
     }
-    if (mirror_) {
-        gl_->ActiveTexture(GL_TEXTURE1);
+    if (with_mirrors_) {
+        gl_->ActiveTexture(GL_TEXTURE3);
         gl_->BindTexture(GL_TEXTURE_2D, background.mirror().name());
     }
     gl_->BindVertexArray(vertex_array_.name());

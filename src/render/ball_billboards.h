@@ -7,7 +7,7 @@
 
 #include "render/balls_in_view.h"
 #include "render/body_shade.h"
-#include "render/gl.h"
+#include "render/gl_program.h"
 #include "render/lights.h"
 #include "render/static_picture.h"
 
@@ -23,17 +23,21 @@ struct GhostLook {
 /// styles, which compiles sooner.
 enum class BallPrograms { kEachStyle, kOneForAll };
 
+/// What the balls of a picture have to do with what is around them.
+struct BallSurroundings {
+    bool occluded = false;  ///< static bodies may stand before balls
+    bool mirrored = false;  ///< there are images of the balls in mirrors
+    BallPrograms programs = BallPrograms::kEachStyle;
+};
+
 /// Compiles programs for the styles of ball that the scene has, and for no other.
 class BallBillboards {
   public:
-    enum class Kind { kBalls, kMirrored };
-    /// For mirror images, set_mirror() says in which mirror.
+    enum class Kind { kBalls, kImages };
+    /// `gl` and `scene` must outlive it. Of images, set_mirror() says in which mirror. Balls and
+    /// their images have the same programs, if these are to compile soon.
     BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                   Kind kind, BallPrograms programs)
-        : BallBillboards(gl, scene, view, lights, false, programs, std::nullopt, kind) {}
-    /// `gl` and `scene` must outlive it. `occluded`: static bodies may stand before balls.
-    BallBillboards(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                   bool occluded, BallPrograms programs = BallPrograms::kEachStyle,
+                   const BallSurroundings& around,
                    const std::optional<GhostLook>& ghost = std::nullopt, Kind kind = Kind::kBalls);
 
     /// Another view of the same size and kind.
@@ -65,13 +69,13 @@ class BallBillboards {
     void draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
                         const StaticPicture& background);
     /// `programs`: of each instance, in the order in which they are drawn.
-    void draw_runs(const std::vector<const GlProgram*>& programs, const std::vector<float>& casters,
+    void draw_runs(const std::vector<GlProgram*>& programs, const std::vector<float>& casters,
                    const StaticPicture& background);
     void append_instance(const BallInView& ball, const BallShade& shade, int first_caster,
                          int casters);
     BallShade shade_on(const BallInView& ball) const;
     LookStyle style_of(const BallInView& ball) const;
-    const GlProgram& program_of(LookStyle style) const;
+    GlProgram& program_of(LookStyle style);
 
     const Gl* gl_;
     const Scene* scene_;
@@ -84,7 +88,7 @@ class BallBillboards {
     };
     std::optional<MirrorPlane> mirror_;
     double light_tan_;
-    bool occluded_;
+    bool with_static_, with_mirrors_;  ///< what its programs look at
     std::map<LookStyle, GlProgram> programs_;  ///< by style; one alone draws all of them
     GlVertexArray vertex_array_;
     GlBuffer instance_buffer_;

@@ -18,11 +18,6 @@ GlProgram make_program(const Gl& gl, const View& view) {
     return GlProgram(gl, sources);
 }
 
-void set_uniform(const Gl& gl, const GlProgram& program, const char* name, const Vec3& value) {
-    const auto f = [](double x) { return static_cast<float>(x); };
-    gl.Uniform3f(program.uniform(name), f(value.x()), f(value.y()), f(value.z()));
-}
-
 Mirror plane_mirror(const PlaneShape& plane, const View& view) {
     Mirror mirror;
     mirror.normal = view_direction(view, plane.normal);
@@ -93,14 +88,14 @@ std::vector<BallInView> mirror_images(const std::vector<BallInView>& balls, cons
 
 BallReflections::BallReflections(const Gl& gl, const Scene& scene, const View& view,
                                  const Lights& lights, const PictureScale& scale,
-                                 BallPrograms programs)
+                                 const BallSurroundings& around)
     : gl_(&gl),
       scene_(&scene),
       view_(view),
       lights_(lights),
       scale_(scale),
       mirrors_(find_mirrors(scene, view)),
-      balls_(gl, scene, view, lights, BallBillboards::Kind::kMirrored, programs),
+      balls_(gl, scene, view, lights, around, std::nullopt, BallBillboards::Kind::kImages),
       layer_(make_texture(gl, GL_SRGB8_ALPHA8, view.width_px(), view.height_px(), GL_RGBA,
                           GL_UNSIGNED_BYTE)),
       layer_framebuffer_(make_framebuffer(gl, "mirror images", {&layer_})),
@@ -115,10 +110,10 @@ void BallReflections::set_view(const View& view, const Lights& lights, const Pic
     scale_ = scale;
     mirrors_ = find_mirrors(*scene_, view);
     balls_.set_view(view, lights);
-    set_common_uniforms(*gl_, program_, view, lights);
-    gl_->Uniform1i(program_.uniform("u_facts"), 0);
-    gl_->Uniform1i(program_.uniform("u_layer"), 1);
-    gl_->Uniform1i(program_.uniform("u_mirror"), 3);
+    set_common_uniforms(program_, view, lights);
+    program_.set("u_facts", 0);
+    program_.set("u_layer", 1);
+    program_.set("u_mirror", 3);
 }
 
 std::vector<BallInView> BallReflections::images(const std::vector<BallInView>& balls) const {
@@ -199,15 +194,13 @@ void BallReflections::compile_blending(const StaticPicture& background,
 
 void BallReflections::blend_layer(const Mirror& mirror, const std::vector<Part>& parts,
                                   const StaticPicture& background) {
-    const auto f = [](double x) { return static_cast<float>(x); };
-    program_.use();
-    set_uniform(*gl_, program_, "u_normal", mirror.normal);
-    set_uniform(*gl_, program_, "u_middle", mirror.middle);
-    set_uniform(*gl_, program_, "u_axis_a", mirror.axis_a);
-    set_uniform(*gl_, program_, "u_axis_b", mirror.axis_b);
-    gl_->Uniform1f(program_.uniform("u_offset"), f(mirror.offset));
-    gl_->Uniform1f(program_.uniform("u_strength"), f(mirror.strength));
-    gl_->Uniform1f(program_.uniform("u_fade_m"), mirror.fades ? f(scale_.fade_m) : 0.0F);
+    program_.set("u_normal", mirror.normal);
+    program_.set("u_middle", mirror.middle);
+    program_.set("u_axis_a", mirror.axis_a);
+    program_.set("u_axis_b", mirror.axis_b);
+    program_.set("u_offset", mirror.offset);
+    program_.set("u_strength", mirror.strength);
+    program_.set("u_fade_m", mirror.fades ? scale_.fade_m : 0.0);
     gl_->ActiveTexture(GL_TEXTURE0 + 3);
     gl_->BindTexture(GL_TEXTURE_2D, background.mirror().name());
     gl_->ActiveTexture(GL_TEXTURE1);
@@ -219,7 +212,7 @@ void BallReflections::blend_layer(const Mirror& mirror, const std::vector<Part>&
     gl_->BlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
     // First the sky goes that the images hide, then they come.
     for (const bool take_away : {true, false}) {
-        gl_->Uniform1i(program_.uniform("u_take_away"), take_away ? 1 : 0);
+        program_.set("u_take_away", take_away ? 1 : 0);
         gl_->BlendEquationSeparate(take_away ? GL_FUNC_REVERSE_SUBTRACT : GL_FUNC_ADD, GL_FUNC_ADD);
         for (const Part& part : parts) {
             gl_->Viewport(part.left, part.top, part.right - part.left, part.bottom - part.top);

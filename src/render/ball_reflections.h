@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/ball_billboards.h"
-#include "render/gl.h"
+#include "render/gl_program.h"
 #include "render/picture_scale.h"
 #include "render/static_picture.h"
 
@@ -36,7 +36,7 @@ class BallReflections {
   public:
     /// `gl` and `scene` must outlive it.
     BallReflections(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                    const PictureScale& scale, BallPrograms programs);
+                    const PictureScale& scale, const BallSurroundings& around);
 
     /// Another view of the same size and kind.
     void set_view(const View& view, const Lights& lights, const PictureScale& scale);

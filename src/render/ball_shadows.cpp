@@ -29,11 +29,10 @@ BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, con
       vertex_array_(gl),
       tile_buffer_(gl),
       caster_array_(gl) {
-    set_common_uniforms(gl, program_, view, lights);
-    gl.Uniform2f(program_.uniform("u_size"), static_cast<float>(view.width_px()),
-                 static_cast<float>(view.height_px()));
-    gl.Uniform1i(program_.uniform("u_facts"), 0);
-    gl.Uniform1i(program_.uniform("u_casters"), 2);
+    set_common_uniforms(program_, view, lights);
+    program_.set("u_size", Vec2(view.width_px(), view.height_px()));
+    program_.set("u_facts", 0);
+    program_.set("u_casters", 2);
     gl.BindVertexArray(vertex_array_.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
     gl.EnableVertexAttribArray(0);
@@ -45,7 +44,7 @@ BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, con
 void BallShadows::set_view(const Scene& scene, const View& view, const Lights& lights,
                            std::vector<TileBound> seen) {
     tiles_ = ShadowTiles(scene, view, lights, std::move(seen));
-    set_common_uniforms(*gl_, program_, view, lights);
+    set_common_uniforms(program_, view, lights);
 }
 
 const std::vector<float>& BallShadows::tiles_of(const std::vector<BallInView>& balls) {

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "core/failure.h"
-#include "render/shader_sources.h"
+#include "render/gl_program.h"
 
 namespace carom {
 
@@ -45,45 +45,6 @@ const char* status_name(GLenum status) {
     }
 }
 
-/// The driver's log without trailing line ends.
-std::string trimmed(std::string log, GLsizei length) {
-    log.resize(static_cast<std::size_t>(length));
-    while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
-    return log;
-}
-
-constexpr GLsizei kLogBytes = 8192;
-
-/// Deletes the shader when it goes out of scope; a linked program keeps what it needs.
-class Shader {
-  public:
-    Shader(const Gl& gl, GLenum stage, const std::string& text, const std::string& program)
-        : gl_(gl), name_(gl.CreateShader(stage)) {
-        const char* source = text.c_str();
-        gl.ShaderSource(name_, 1, &source, nullptr);
-        gl.CompileShader(name_);
-        GLint compiled = GL_FALSE;
-        gl.GetShaderiv(name_, GL_COMPILE_STATUS, &compiled);
-        if (compiled == GL_TRUE) return;
-        std::string log(static_cast<std::size_t>(kLogBytes), '\0');
-        GLsizei length = 0;
-        gl.GetShaderInfoLog(name_, kLogBytes, &length, log.data());
-        gl.DeleteShader(name_);
-        throw Failure(FailureKind::kRun,
-                      fmt::format("the {} shader \"{}\" does not compile: {}",
-                                  stage == GL_VERTEX_SHADER ? "vertex" : "fragment", program,
-                                  trimmed(std::move(log), length)));
-    }
-    ~Shader() { gl_.DeleteShader(name_); }
-    Shader(const Shader&) = delete;
-    Shader& operator=(const Shader&) = delete;
-    GLuint name() const { return name_; }
-
-  private:
-    const Gl& gl_;
-    GLuint name_;
-};
-
 /// llvmpipe (22.3) compiles a shader again for a buffer texture whose size is a power of two, and
 /// for one where the second byte of its size in bytes is zero: no array here has such a size. None
 /// is empty either, which would leave the texture without storage.
@@ -96,6 +57,7 @@ std::size_t padded_size(std::size_t vec4s) {
 
 Gl Gl::load(Loader loader) {
     Gl gl;
+    gl.programs = std::make_shared<GlLinkedPrograms>();
 #define CAROM_GL_LOAD(type, name)                         \
     gl.name = reinterpret_cast<type>(loader("gl" #name)); \
     if (gl.name == nullptr)                               \
@@ -131,42 +93,6 @@ GLuint GlVertexArrayTraits::make(const Gl& gl) {
     GLuint name = 0;
     gl.GenVertexArrays(1, &name);
     return name;
-}
-
-GlProgram::GlProgram(const Gl& gl, const Sources& sources) : gl_(&gl), object_(gl) {
-    const GLuint program = object_.name();
-    const Shader vertex(gl, GL_VERTEX_SHADER, sources.vertex, sources.name);
-    const Shader fragment(gl, GL_FRAGMENT_SHADER, sources.fragment, sources.name);
-    gl.AttachShader(program, vertex.name());
-    gl.AttachShader(program, fragment.name());
-    for (std::size_t i = 0; i < sources.attributes.size(); ++i)
-        gl.BindAttribLocation(program, static_cast<GLuint>(i), sources.attributes[i]);
-    for (std::size_t i = 0; i < sources.outputs.size(); ++i)
-        gl.BindFragDataLocation(program, static_cast<GLuint>(i), sources.outputs[i]);
-    gl.LinkProgram(program);
-
-    GLint linked = GL_FALSE;
-    gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (linked == GL_TRUE) return;
-    std::string log(static_cast<std::size_t>(kLogBytes), '\0');
-    GLsizei length = 0;
-    gl.GetProgramInfoLog(program, kLogBytes, &length, log.data());
-    throw Failure(FailureKind::kRun, fmt::format("the shader program \"{}\" does not link: {}",
-                                                 sources.name, trimmed(std::move(log), length)));
-}
-
-std::string assemble_shader(const std::vector<std::string>& defines,
-                            const std::vector<std::string_view>& files) {
-    std::string text = "#version 330 core\n";
-    for (const std::string& define : defines) text += "#define " + define + "\n";
-    text += shader_source("common");
-    for (const std::string_view file : files) {
-        const std::string_view body = shader_source(file);
-        if (body.empty())
-            throw Failure(FailureKind::kRun, fmt::format("no shader file \"{}.glsl\"", file));
-        text += body;
-    }
-    return text;
 }
 
 GlTexture make_texture(const Gl& gl, GLint internal_format, int width, int height, GLenum format,

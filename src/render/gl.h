@@ -1,4 +1,5 @@
-// OpenGL 3.3 core as carom uses it: a table of entry points, and move-only owners of its objects.
+// OpenGL 3.3 core as carom uses it: a table of entry points, and move-only owners of its objects
+// (programs: gl_program.h).
 //
 // The table is filled through a loader of the back end (OSMesaGetProcAddress today; EGL has one of
 // the same shape), because no loader library works under OSMesa. Everything here belongs to one
@@ -9,8 +10,8 @@
 #include <GL/glcorearb.h>
 
 #include <cstddef>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace carom {
@@ -54,7 +55,9 @@ namespace carom {
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer) X(PFNGLVIEWPORTPROC, Viewport)
 // clang-format on
 
-/// The entry points of one back end.
+struct GlLinkedPrograms;
+
+/// The entry points of one back end, and what its context keeps.
 struct Gl {
 #define CAROM_GL_MEMBER(type, name) type name = nullptr;
     CAROM_GL_FUNCTIONS(CAROM_GL_MEMBER)
@@ -65,6 +68,9 @@ struct Gl {
     /// Failure(kRun) with the name of an entry point that the loader does not know. A loader may
     /// return a pointer for a name that does not exist, so the version must be checked as well.
     static Gl load(Loader loader);
+
+    /// Of this context (render/gl_program.h).
+    std::shared_ptr<GlLinkedPrograms> programs;
 
     /// Failure(kRun) naming `attempted` if any error has been raised since the last call.
     void check(const std::string& attempted) const;
@@ -116,43 +122,11 @@ struct GlVertexArrayTraits {
     static GLuint make(const Gl& gl);
     static void destroy(const Gl& gl, GLuint name) { gl.DeleteVertexArrays(1, &name); }
 };
-struct GlProgramTraits {
-    static GLuint make(const Gl& gl) { return gl.CreateProgram(); }
-    static void destroy(const Gl& gl, GLuint name) { gl.DeleteProgram(name); }
-};
 
 using GlBuffer = GlObject<GlBufferTraits>;
 using GlTexture = GlObject<GlTextureTraits>;
 using GlFramebuffer = GlObject<GlFramebufferTraits>;
 using GlVertexArray = GlObject<GlVertexArrayTraits>;
-
-/// A linked program. Vertex attributes are bound by the order of `attributes`, fragment outputs by
-/// the order of `outputs`.
-class GlProgram {
-  public:
-    struct Sources {
-        std::string name;    ///< for messages
-        std::string vertex;  ///< whole text, #version included
-        std::string fragment;
-        std::vector<const char*> attributes;
-        std::vector<const char*> outputs;
-    };
-    GlProgram() = default;
-    /// Failure(kRun) with the name of the program and the driver's log.
-    GlProgram(const Gl& gl, const Sources& sources);
-
-    void use() const { gl_->UseProgram(object_.name()); }
-    /// -1 where the program does not use it, which GL ignores silently and by design.
-    GLint uniform(const char* name) const { return gl_->GetUniformLocation(object_.name(), name); }
-
-  private:
-    const Gl* gl_ = nullptr;
-    GlObject<GlProgramTraits> object_;
-};
-
-/// A whole shader text: version, one #define per entry, common.glsl, and the named files.
-std::string assemble_shader(const std::vector<std::string>& defines,
-                            const std::vector<std::string_view>& files);
 
 /// A 2-D texture without mipmaps, nearest filtering, clamped; `format` and `type` describe `pixels`
 /// (null: contents undefined).

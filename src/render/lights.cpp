@@ -38,17 +38,12 @@ Lights choose_lights(const View& view) {
     return lights;
 }
 
-void set_common_uniforms(const Gl& gl, const GlProgram& program, const View& view,
-                         const Lights& lights) {
-    const Vec3 up = view_direction(view, Vec3::UnitZ());
-    const Vec3 light = view_direction(view, lights.to_light);
-    const auto f = [](double value) { return static_cast<float>(value); };
-    program.use();
-    gl.Uniform2f(program.uniform("u_center"), f(0.5 * view.width_px()), f(0.5 * view.height_px()));
-    gl.Uniform1f(program.uniform("u_pixel"), f(pixel_width(view)));
-    gl.Uniform3f(program.uniform("u_up"), f(up.x()), f(up.y()), f(up.z()));
-    gl.Uniform3f(program.uniform("u_light"), f(light.x()), f(light.y()), f(light.z()));
-    gl.Uniform1f(program.uniform("u_light_tan"), f(lights.tan_radius));
+void set_common_uniforms(GlProgram& program, const View& view, const Lights& lights) {
+    program.set("u_center", Vec2(0.5 * view.width_px(), 0.5 * view.height_px()));
+    program.set("u_pixel", pixel_width(view));
+    program.set("u_up", view_direction(view, Vec3::UnitZ()));
+    program.set("u_light", view_direction(view, lights.to_light));
+    program.set("u_light_tan", lights.tan_radius);
 }
 
 double linear_from_srgb(double encoded) {

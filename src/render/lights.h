@@ -6,7 +6,7 @@
 
 #include "core/types.h"
 #include "render/camera.h"
-#include "render/gl.h"
+#include "render/gl_program.h"
 
 namespace carom {
 
@@ -36,8 +36,7 @@ struct Lights {
 Lights choose_lights(const View& view);
 
 /// Sets the uniforms of common.glsl in the program, which becomes current.
-void set_common_uniforms(const Gl& gl, const GlProgram& program, const View& view,
-                         const Lights& lights);
+void set_common_uniforms(GlProgram& program, const View& view, const Lights& lights);
 
 /// sRGB in 0 ... 1 to linear (IEC 61966-2-1).
 double linear_from_srgb(double encoded);

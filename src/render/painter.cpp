@@ -146,22 +146,23 @@ class Painter::Impl {
     void make_passes(const PainterOptions& options) {
         const View& view = setup_.view;
         const Lights& lights = setup_.lights;
-        const bool occluded = setup_.surfaces.can_occlude();
         if (setup_.overlay.has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
         const bool on_surfaces = setup_.moving ? !scene_.surfaces.empty() : setup_.surfaces.count() > 0;
         if (on_surfaces && !scene_.balls.empty()) shadows_.emplace(gl_, scene_, view, lights);
-        const BallPrograms programs =
-            options.few_pictures ? BallPrograms::kOneForAll : BallPrograms::kEachStyle;
-        if (wants_reflection(scene_) && !scene_.balls.empty() && !transparent_)
-            reflections_.emplace(gl_, scene_, view, lights, setup_.scale, programs);
-        balls_.emplace(gl_, scene_, view, lights, occluded, programs);
+        BallSurroundings around;
+        around.occluded = setup_.surfaces.can_occlude();
+        around.mirrored = wants_reflection(scene_) && !scene_.balls.empty() && !transparent_;
+        if (options.few_pictures) around.programs = BallPrograms::kOneForAll;
+        if (around.mirrored)
+            reflections_.emplace(gl_, scene_, view, lights, setup_.scale, around);
+        balls_.emplace(gl_, scene_, view, lights, around);
         if (against_ != nullptr) {
             constexpr double kGhostOutlinePx = 2.2;  // at 720
             const Ink ink = ghost_ink(scene_.overlay.theme);
             const GhostLook look{
                 {linear_from_srgb(ink.r), linear_from_srgb(ink.g), linear_from_srgb(ink.b)},
                 std::max(1.2, overlay_px(kGhostOutlinePx, height_px_))};
-            ghosts_.emplace(gl_, against_->scene, view, lights, occluded, programs, look);
+            ghosts_.emplace(gl_, against_->scene, view, lights, around, look);
         }
         if (scene_.film.shutter_deg > 0) mean_.emplace(gl_, width_px_, height_px_);
     }

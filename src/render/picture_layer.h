@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "render/gl.h"
+#include "render/gl_program.h"
 
 namespace carom {
 

@@ -103,8 +103,7 @@ void PictureMean::draw_tiles(const GlTexture& from, double weight, bool added) {
     } else {
         gl_->Disable(GL_BLEND);
     }
-    program_.use();
-    gl_->Uniform1f(program_.uniform("u_weight"), static_cast<float>(weight));
+    program_.set("u_weight", weight);
     gl_->ActiveTexture(GL_TEXTURE0);
     gl_->BindTexture(GL_TEXTURE_2D, from.name());
     gl_->BindVertexArray(vertex_array_.name());

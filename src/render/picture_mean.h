@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/gl.h"
+#include "render/gl_program.h"
 
 namespace carom {
 

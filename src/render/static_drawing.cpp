@@ -74,16 +74,15 @@ void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTa
                          const PictureScale& scale, const BodyTiles& tiles) {
     const Gl& gl = *gl_;
     compile(view, table);
-    const GlProgram& program = *program_;
-    set_common_uniforms(gl, program, view, lights);
-    gl.Uniform2f(program.uniform("u_size"), static_cast<float>(view.width_px()),
-                 static_cast<float>(view.height_px()));
-    gl.Uniform1i(program.uniform("u_surfaces"), 0);
-    gl.Uniform1i(program.uniform("u_listed"), 1);
-    gl.Uniform4i(program.uniform("u_counts"), table.planes, table.boxes, table.spheres,
-                 table.capsules);
-    gl.Uniform1f(program.uniform("u_fade_m"), static_cast<float>(scale.fade_m));
-    gl.Uniform1f(program.uniform("u_ao_reach_m"), static_cast<float>(scale.ao_reach_m));
+    GlProgram& program = *program_;
+    set_common_uniforms(program, view, lights);
+    program.set("u_size", Vec2(view.width_px(), view.height_px()));
+    program.set("u_surfaces", 0);
+    program.set("u_listed", 1);
+    program.set("u_counts",
+                std::array{table.planes, table.boxes, table.spheres, table.capsules});
+    program.set("u_fade_m", scale.fade_m);
+    program.set("u_ao_reach_m", scale.ao_reach_m);
     GlVec4Array surfaces(gl), listed(gl);
     surfaces.upload(table.vec4s);
     surfaces.bind(0);

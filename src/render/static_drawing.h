@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/body_tiles.h"
-#include "render/gl.h"
+#include "render/gl_program.h"
 #include "render/lights.h"
 #include "render/offscreen.h"
 #include "render/picture_scale.h"

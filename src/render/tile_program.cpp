@@ -14,10 +14,8 @@ GlProgram make_tile_program(const Gl& gl, const TileProgram& wanted,
     sources.attributes = {"a_tile"};
     sources.outputs = {"out_color"};
     GlProgram program(gl, sources);
-    program.use();
-    gl.Uniform2f(program.uniform("u_size"), static_cast<float>(wanted.width_px),
-                 static_cast<float>(wanted.height_px));
-    gl.Uniform1i(program.uniform(wanted.texture), 0);
+    program.set("u_size", Vec2(wanted.width_px, wanted.height_px));
+    program.set(wanted.texture, 0);
     gl.BindVertexArray(vertex_array.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, tiles.name());
     gl.EnableVertexAttribArray(0);

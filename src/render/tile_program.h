@@ -1,7 +1,7 @@
 // Programs that draw square tiles of the picture, one instance a tile.
 #pragma once
 
-#include "render/gl.h"
+#include "render/gl_program.h"
 
 namespace carom {
 

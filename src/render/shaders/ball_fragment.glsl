@@ -11,6 +11,7 @@ uniform sampler2D u_front;
 #endif
 
 #ifdef MIRRORED
+uniform int u_is_image;      // 1: what is drawn are images in a mirror; 0: the balls themselves
 uniform sampler2D u_mirror;  // static_picture.h
 uniform vec3 u_mirror_normal;
 uniform float u_mirror_offset;
@@ -147,7 +148,9 @@ void main() {
     float part = points == 1 ? 1.0 : 0.5;  // of a pixel's width
     vec3 color = vec3(0.0);
     float weight = 0.0, depth = 0.0;
-    for (int i = 0; i < points; ++i) {
+    // A software rasteriser would run once more through a loop that is left at its top.
+    int i = 0;
+    do {
         vec2 at = vec2(i & 1, i >> 1) - 0.5;
         at = points == 1 ? vec2(0.0) : 0.5 * vec2(at.x - 0.5 * at.y, at.y + 0.5 * at.x);
         vec3 d_unit = normalize(ray_through(pixel + at));
@@ -171,20 +174,23 @@ void main() {
         color += counts * min(lit(body, gloss, n, d_unit, scale), 1.0);
         weight += counts;
         depth = v_ray.w * t;
-    }
+    } while (++i < points);
     color /= weight;
 
 #ifdef MIRRORED
     // From the mirror on, the ray goes as far as to what hides the ball, or not.
+    bool is_image = u_is_image == 1;
     float to_mirror = (u_mirror_offset - dot(u_mirror_normal, ray_start(pixel))) /
                       dot(u_mirror_normal, d);
-    if (depth - to_mirror > texelFetch(u_mirror, ivec2(pixel), 0).a) discard;
+    if (is_image && depth - to_mirror > texelFetch(u_mirror, ivec2(pixel), 0).a) discard;
+#else
+    const bool is_image = false;
 #endif
 #ifdef OCCLUDED
     uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
     float front_part = float(facts.z >> 20) / 1023.0;
-    if (depth > uintBitsToFloat(facts.y)) discard;
-    if (depth > uintBitsToFloat(facts.x)) {
+    if (!is_image && depth > uintBitsToFloat(facts.y)) discard;
+    if (!is_image && depth > uintBitsToFloat(facts.x)) {
         // Within an edge of a body before the ball: the body keeps its share of the pixel.
 #ifdef GHOST
         seen *= 1.0 - front_part;
