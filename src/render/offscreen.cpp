@@ -69,6 +69,11 @@ class OffscreenContext::Impl {
             throw Failure(FailureKind::kRun, "OSMesa cannot make its context current");
     }
 
+    void release() {
+        if (osmesa().OSMesaGetCurrentContext() == context_)
+            osmesa().OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+    }
+
     const Gl& gl() const { return gl_; }
     OSMesaContext context() const { return context_; }
 
@@ -108,6 +113,7 @@ OffscreenContext::OffscreenContext(OffscreenContext&&) noexcept = default;
 OffscreenContext& OffscreenContext::operator=(OffscreenContext&&) noexcept = default;
 
 void OffscreenContext::make_current() { impl_->make_current(); }
+void OffscreenContext::release() { impl_->release(); }
 const Gl& OffscreenContext::gl() const { return impl_->gl(); }
 std::string OffscreenContext::renderer() const {
     return text_of(gl(), GL_RENDERER) + ", " + text_of(gl(), GL_VERSION);

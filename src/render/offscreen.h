@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -26,8 +27,8 @@ class DriverPreload {
 
 /// Owns one context of OpenGL 3.3 core. OSMesa draws into memory of the caller; carom draws into
 /// its own framebuffer objects instead, so that memory is a 16 x 16 dummy.
-/// One thread at a time, and destroyed in the thread that used it last; several contexts may live
-/// in one process.
+/// One thread at a time; whoever hands it to another thread, or leaves it to be destroyed there,
+/// releases it first. Several contexts may live in one process.
 class OffscreenContext {
   public:
     /// Failure(kRun) if there is no context, its version is below 3.3, or an entry point is
@@ -42,6 +43,8 @@ class OffscreenContext {
 
     /// Cheap when it is current already; call it before every use of GL.
     void make_current();
+    /// No context is current in this thread any more.
+    void release();
     const Gl& gl() const;
     /// For example "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
     std::string renderer() const;
@@ -49,6 +52,12 @@ class OffscreenContext {
   private:
     class Impl;
     std::unique_ptr<Impl> impl_;
+};
+
+/// What pictures are drawn with: painters of one thread may share it, and with it the programs.
+struct DrawingContexts {
+    OffscreenContext main;
+    std::optional<OffscreenContext> aside;  ///< of another thread, made when it is first needed
 };
 
 }  // namespace carom

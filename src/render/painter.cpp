@@ -46,7 +46,10 @@ class Painter::Impl {
           height_px_(options.height_px),
           setup_(scene, motion, options),
           draw_cpu_s_(thread_cpu_s() - begin_s_),
+          contexts_(options.contexts ? options.contexts : std::make_shared<DrawingContexts>()),
+          context_(contexts_->main),
           gl_(context_.gl()) {
+        context_.make_current();
         check_size();
         const double begin = clock_.now_s();
         // Of a camera that stands, the static picture takes about as long as everything else: it is
@@ -54,7 +57,7 @@ class Painter::Impl {
         std::future<double> drawn;
         std::promise<const StaticPicture*> target;
         if (!setup_.moving)
-            drawn = std::async(std::launch::async, draw_aside, std::cref(context_),
+            drawn = std::async(std::launch::async, draw_aside, std::ref(*contexts_),
                                StaticContents{setup_.view, setup_.lights, setup_.surfaces,
                                               setup_.scale, transparent_},
                                target.get_future());
@@ -315,7 +318,8 @@ class Painter::Impl {
     double begin_s_ = thread_cpu_s();
     PictureSetup setup_;  // as its driver is loaded meanwhile, before the context
     double draw_cpu_s_;
-    OffscreenContext context_;  // outlives every owner of GL objects below
+    std::shared_ptr<DrawingContexts> contexts_;
+    OffscreenContext& context_;  // outlives every owner of GL objects below
     const Gl& gl_;
     DriverClock clock_;
     bool checked_ = false;  ///< that the driver draws anything

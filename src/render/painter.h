@@ -13,6 +13,7 @@
 
 namespace carom {
 
+struct DrawingContexts;
 struct PicturePart;
 struct SecondRun;
 
@@ -21,6 +22,8 @@ struct PainterOptions {
     int height_px = 720;
     const SecondRun* against = nullptr;  ///< a run to show with the first; must outlive the painter
     const PicturePart* part = nullptr;   ///< this is half of a picture (render/side_by_side.h)
+    /// To draw with, shared with other painters of the thread; of its own if there is none.
+    std::shared_ptr<DrawingContexts> contexts = {};
     bool few_pictures = false;  ///< programs that compile soon rather than draw fast; same pixels
     std::optional<double> only_at =
         {};  ///< s: no other instant will be painted last (paint_strobe())
@@ -28,7 +31,7 @@ struct PainterOptions {
 
 class SideBySide;
 
-/// Owns one offscreen context; use it from the thread that made it. `scene` and `motion` must
+/// Has an offscreen context; use it from the thread that made it. `scene` and `motion` must
 /// outlive it. Everything that can fail (context, shaders, framebuffer, fonts) fails in the
 /// constructor with Failure(kRun) and the library's own text; a frame is never silently blank.
 class Painter {

@@ -5,6 +5,7 @@
 
 #include "render/driver_clock.h"
 #include "render/font.h"
+#include "render/offscreen.h"
 #include "render/overlay_against.h"
 
 namespace carom {
@@ -93,11 +94,14 @@ SideBySide::SideBySide(const Scene& scene, const Motion& motion, const PainterOp
     overlay_ = std::make_unique<OverlayPainter>(whole_scene_, motion, view,
                                                 OverlayPainter::Runs{&second_, nullptr, false, {}});
     part_ = part_of(motion);
+    // One driver for both: the second half finds its programs made.
+    const auto contexts = std::make_shared<DrawingContexts>();
     const auto half = [&](const Scene& half_scene, const Motion& half_motion) {
         PainterOptions options = whole;
         options.against = nullptr;
         options.width_px = half_px_;
         options.part = &part_;
+        options.contexts = contexts;
         return std::make_unique<Painter>(half_scene, half_motion, options);
     };
     left_ = half(left_scene_, motion);

@@ -51,6 +51,18 @@ void draw_rectangles(const Gl& gl, const BodyTiles& tiles) {
         static_cast<GLsizei>(tiles.rectangles.size() / BodyTiles::kRectangleFloats));
 }
 
+/// Current in this thread for as long as it lives.
+class Current {
+  public:
+    explicit Current(OffscreenContext& context) : context_(context) { context_.make_current(); }
+    ~Current() { context_.release(); }
+    Current(const Current&) = delete;
+    Current& operator=(const Current&) = delete;
+
+  private:
+    OffscreenContext& context_;
+};
+
 }  // namespace
 
 void StaticDrawing::aim(const StaticPicture& target) {
@@ -96,20 +108,19 @@ void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTa
     gl.check("drawing the static picture");
 }
 
-double draw_aside(const OffscreenContext& owner, const StaticContents& contents,
+double draw_aside(DrawingContexts& contexts, const StaticContents& contents,
                   std::future<const StaticPicture*> target) {
     const double begin = thread_cpu_s();
-    OffscreenContext context(owner);
-    const Gl& gl = context.gl();
+    if (!contexts.aside) contexts.aside.emplace(contexts.main);
+    const Current current(*contexts.aside);
+    const Gl& gl = contexts.aside->gl();
     gl.Disable(GL_DITHER);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
-    {
-        StaticDrawing drawing(gl, contents.transparent);
-        drawing.compile(contents.view, contents.table);
-        drawing.aim(*target.get());
-        drawing.draw(contents.view, contents.lights, contents.table, contents.scale);
-        gl.Finish();
-    }
+    StaticDrawing drawing(gl, contents.transparent);
+    drawing.compile(contents.view, contents.table);
+    drawing.aim(*target.get());
+    drawing.draw(contents.view, contents.lights, contents.table, contents.scale);
+    gl.Finish();
     return thread_cpu_s() - begin;
 }
 

@@ -52,10 +52,10 @@ struct StaticContents {
     bool transparent;
 };
 
-/// Draws once with a context of its own that shares the textures of `owner`; for any thread. The
-/// program is made before `target` is waited for. When this returns the picture is complete; the
-/// thread's CPU seconds come back.
-double draw_aside(const OffscreenContext& owner, const StaticContents& contents,
+/// Draws once with the context aside; for any thread. The program is made before `target` is waited
+/// for. When this returns the picture is complete and the context released; the thread's CPU
+/// seconds come back.
+double draw_aside(DrawingContexts& contexts, const StaticContents& contents,
                   std::future<const StaticPicture*> target);
 
 }  // namespace carom
