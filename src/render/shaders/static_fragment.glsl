@@ -137,33 +137,17 @@ Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
 }
 
 #ifdef REFLECTION
-// Adds what is mirrored to `s`, which was shaded without; out_mirror's value comes back. `edge`: an
-// edge of a mirrored body may pass through this pixel.
-vec4 add_mirrored(inout Shaded s, inout bool edge, Hit hit, vec3 d, float part, int sample_index) {
-    float share = reflected_part(hit, d);
-    if (share <= 0.0) return vec4(0.0, 0.0, 0.0, kFar);
-    vec3 p = g_start + hit.t * d, r = reflect(d, hit.n), seen = background(r);
-    float away = kFar;
-#ifdef SEVERAL
-    vec3 eye = g_start;
-    g_start = p + hit.n * (1e-4 * hit.t);
-    Hit other = nearest_surface(r);
-    if (other.item >= 0) {
-        seen = shade(other, r, part, sample_index).color;
-        away = other.t;
-    }
-    edge = edge || other.edge;
-    g_start = eye;
-#endif
-    // Of the colour, the horizon's part stays, and of the rest the mirrored part is exchanged.
-    float fade = faded(hit, p);
+// Adds what a mirror shows to `s`, which was shaded without: of the colour, the horizon's part stays,
+// and of the rest the mirrored part is exchanged. out_mirror's colour comes back.
+vec3 add_mirrored(inout Shaded s, Hit hit, vec3 d, float share, vec3 seen) {
+    float fade = faded(hit, g_start + hit.t * d);
     vec3 mirrored = share * (1.0 - fade) * seen;
     vec3 color = s.color - share * (s.color - fade * background(d)) + mirrored;
     float scale = (1.0 - share) * dot(s.color, kLuma) / max(dot(color, kLuma), 1e-6);
     s.direct *= scale;
     s.ambient *= scale;
     s.color = color;
-    return vec4(mirrored, away);
+    return mirrored;
 }
 #endif
 
@@ -203,6 +187,39 @@ void main() {
 #ifdef ORTHOGRAPHIC
         g_start = ray_start(gl_FragCoord.xy + at);
 #endif
+#if defined(REFLECTION) && defined(SEVERAL)
+        // The pixel's ray, and where a mirror is met the ray from there: one after the other, so
+        // that the code for both is there only once.
+        Hit hit;
+        Shaded s;
+        bool whole;
+        vec4 m = vec4(0.0, 0.0, 0.0, kFar);
+        vec3 ray = d, eye = g_start;
+        float share = 0.0;
+        int ways = 1, way = 0;
+        do {
+            Hit met = nearest_surface(ray);
+            if (way == 0) whole = i == 0 && !met.edge;
+            Shaded seen = shade(met, ray, whole ? 1.0 : 0.25, whole ? -1 : max(fine, 0));
+            if (way == 0) {
+                hit = met;
+                s = seen;
+                share = reflected_part(hit, d);
+                if (share > 0.0) {
+                    ways = 2;
+                    ray = reflect(d, hit.n);
+                    g_start = g_start + hit.t * d + hit.n * (1e-4 * hit.t);
+                }
+            } else {
+                g_start = eye;
+                bool sky = met.item < 0;
+                m = vec4(add_mirrored(s, hit, d, share, sky ? background(ray) : seen.color),
+                         sky ? kFar : met.t);
+                if (met.edge) whole = false;
+            }
+        } while (++way < ways);
+        if (i == 0 && !whole) last = 1 + kProbes + kSamples;
+#else
         Hit hit = nearest_surface(d);
 #ifdef SEVERAL
         bool whole = i == 0 && !hit.edge;
@@ -212,14 +229,13 @@ void main() {
 #endif
         Shaded s = shade(hit, d, whole ? 1.0 : 0.25, whole ? -1 : max(fine, 0));
 #ifdef REFLECTION
-        bool edge = false;
-        vec4 m = add_mirrored(s, edge, hit, d, whole ? 1.0 : 0.25, whole ? -1 : max(fine, 0));
-#ifdef SEVERAL
-        if (whole && edge) {
-            whole = false;
-            last = 1 + kProbes + kSamples;
-        }
+        vec4 m = vec4(0.0, 0.0, 0.0, kFar);
+        float share = reflected_part(hit, d);
+        if (share > 0.0)
+            m.rgb = add_mirrored(s, hit, d, share, background(reflect(d, hit.n)));
 #endif
+#endif
+#ifdef REFLECTION
         if (i == 0) mirror.a = m.a;
         if (whole || fine >= 0) mirror.rgb += m.rgb;
 #endif
