@@ -20,8 +20,8 @@ vec3 albedo(Hit hit, vec3 d, float part) {
         v = b.xyz;
         origin = vec2(a.w, b.w);
     } else if (is_box) {
-        vec4 a = surface(hit.item, 1 + (hit.axis + 1) % 3);
-        vec4 b = surface(hit.item, 1 + (hit.axis + 2) % 3);
+        vec4 a = surface(hit.item, hit.axis == 2 ? 1 : 2 + hit.axis);
+        vec4 b = surface(hit.item, hit.axis == 0 ? 3 : hit.axis);
         vec3 center = surface(hit.item, 0).xyz;
         u = a.xyz;
         v = b.xyz;
@@ -57,19 +57,6 @@ float reflected_part(Hit hit, vec3 d) {
 }
 #endif
 
-// 1 in the open, less where other surfaces come close within reach of the normal; looked up at
-// `taps` of three heights, beginning with `first`.
-float open_sky(vec3 p, vec3 n, int item, int first, int taps) {
-    float closed = 0.0;
-    int i = 0;
-    do {
-        float k = float(first + i + 1);
-        float h = u_ao_reach_m * k * k / 9.0;
-        closed += 1.0 - clamp(nearest_distance(p + n * h, item), 0.0, h) / h;
-    } while (++i < taps);
-    return 1.0 - 0.75 * closed / float(max(taps, 1));
-}
-
 struct Shaded {
     vec3 color;
     float direct;   // part of the colour that is key light
@@ -98,8 +85,7 @@ float faded(Hit hit, vec3 p) {
     return 0.0;
 }
 
-// `sample_index` 0 ... 35 takes an eighth of the lamp and one height of the crevices, which differ from one
-// sample of an edge to the next; -1 takes all of them. The sample is `part` of a pixel wide.
+// `sample_index` as open_to_light() has it; the sample is `part` of a pixel wide.
 Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
 #ifdef ORTHOGRAPHIC
     if (hit.item <= kSection) {
@@ -116,10 +102,9 @@ Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
     vec3 py = pixel_at(hit.t) * part * (vec3(0, 1, 0) - d * (hit.n.y / tilt));
     float visible = 1.0, open = 1.0;
 #ifdef SEVERAL
-    bool all = sample_index < 0;
-    visible = key_visibility(p + hit.n * (1e-4 * hit.t), px, py, hit.item,
-                             all ? 0 : (sample_index & 7) * 8, all ? 64 : 8);
-    open = open_sky(p, hit.n, hit.item, all ? 0 : sample_index % 3, all ? 3 : 1);
+    vec2 lit = open_to_light(p, hit.n, 1e-4 * hit.t, px, py, hit.item, u_ao_reach_m, sample_index);
+    visible = lit.x;
+    open = lit.y;
 #endif
     vec3 direct = body * kKey * (facing * visible);
     vec3 ambient = body * ambient_light(hit.n) * open;
@@ -128,8 +113,8 @@ Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
     vec3 color = mix(direct + ambient, background(d), fade);
     float whole = max(dot(color, kLuma), 1e-6);
 #ifdef TRANSPARENT
-    float lit = dot(body * (kKey * facing + ambient_light(hit.n)), kLuma);
-    float taken = (1.0 - fade) * (1.0 - dot(direct + ambient, kLuma) / max(lit, 1e-6));
+    float whole_light = dot(body * (kKey * facing + ambient_light(hit.n)), kLuma);
+    float taken = (1.0 - fade) * (1.0 - dot(direct + ambient, kLuma) / max(whole_light, 1e-6));
     float opaque = hit.item < u_counts.x ? clamp(taken, 0.0, 1.0) : 1.0;
 #endif
     return SHADED(color, (1.0 - fade) * dot(direct, kLuma) / whole,
@@ -179,9 +164,10 @@ void main() {
         vec2 at = vec2(0.0);
         int fine = i - 1 - kProbes;
         if (i > 0) {
-            int k = fine < 0 ? i - 1 : fine, edge = fine < 0 ? 2 : 6;
+            float k = float(fine < 0 ? i - 1 : fine), edge = fine < 0 ? 2.0 : 6.0;
+            float row = floor((k + 0.5) / edge);
             // Both grids reach equally far out: a line that cuts off a sample cuts off a probe.
-            at = (vec2(float(k % edge), float(k / edge)) / float(edge - 1) - 0.5) * (5.0 / 6.0);
+            at = (vec2(k - edge * row, row) / (edge - 1.0) - 0.5) * (5.0 / 6.0);
         }
         vec3 d = ray_through(gl_FragCoord.xy + at);
 #ifdef ORTHOGRAPHIC
