@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -21,9 +23,14 @@ namespace {
 
 /// Reads at most one byte more than a scene may have, so that a huge or endless input ends.
 std::string read_bounded(std::istream& stream) {
-    std::string text(kMaxDocumentBytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    constexpr std::size_t kMost = kMaxDocumentBytes + 1;
+    std::string text;
+    std::array<char, 1 << 16> part;
+    while (stream && text.size() < kMost) {
+        const std::size_t wanted = std::min(part.size(), kMost - text.size());
+        stream.read(part.data(), static_cast<std::streamsize>(wanted));
+        text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    }
     return text;
 }
 

@@ -92,16 +92,16 @@ class Studio {
           lights_(choose_lights(view_)),
           table_(make_surface_table(made.scene, view_)),
           transparent_(transparent),
-          picture_(context_.gl(), kWidth, kHeight, table_.reflection) {
+          picture_(contexts_.main.gl(), kWidth, kHeight, table_.reflection) {
         scale_.ao_reach_m = 0.24;
-        context_.gl().Disable(GL_DITHER);
-        context_.gl().Enable(GL_FRAMEBUFFER_SRGB);
+        contexts_.main.gl().Disable(GL_DITHER);
+        contexts_.main.gl().Enable(GL_FRAMEBUFFER_SRGB);
     }
     BodyTiles sorted() const { return sort_into_tiles(table_, view_, lights_, scale_); }
     BodyTiles everywhere() const { return all_bodies_everywhere(table_, view_); }
 
     Drawn draw(const BodyTiles& tiles) {
-        StaticDrawing drawing(context_.gl(), transparent_);
+        StaticDrawing drawing(contexts_.main.gl(), transparent_);
         drawing.aim(picture_);
         drawing.draw(view_, lights_, table_, scale_, tiles);
         return read();
@@ -109,7 +109,7 @@ class Studio {
     Drawn draw_in_a_thread() {
         std::promise<const StaticPicture*> target;
         std::future<double> drawn = std::async(
-            std::launch::async, draw_aside, std::cref(context_),
+            std::launch::async, draw_aside, std::ref(contexts_),
             StaticContents{view_, lights_, table_, scale_, transparent_}, target.get_future());
         target.set_value(&picture_);
         EXPECT_GT(drawn.get(), 0);
@@ -118,7 +118,7 @@ class Studio {
 
   private:
     Drawn read() {
-        const Gl& gl = context_.gl();
+        const Gl& gl = contexts_.main.gl();
         Drawn drawn;
         gl.BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.color_framebuffer().name());
         gl.ReadPixels(0, 0, kWidth, kHeight, GL_BGRA, GL_UNSIGNED_BYTE, drawn.color.bgra.data());
@@ -134,7 +134,7 @@ class Studio {
     SurfaceTable table_;
     PictureScale scale_;
     bool transparent_;
-    OffscreenContext context_;
+    DrawingContexts contexts_;
     StaticPicture picture_;
 };
 
@@ -209,7 +209,7 @@ TEST(StaticDrawing, AThreadOfItsOwnGivesTheSamePicture) {
 }
 
 TEST(StaticDrawing, EndsWhenItsTargetNeverComes) {
-    OffscreenContext owner;
+    DrawingContexts contexts;
     const Camera camera;
     const View view(camera, 64, 36);
     const Lights lights = choose_lights(view);
@@ -217,7 +217,7 @@ TEST(StaticDrawing, EndsWhenItsTargetNeverComes) {
     const PictureScale scale;
     std::promise<const StaticPicture*> target;
     std::future<double> drawn =
-        std::async(std::launch::async, draw_aside, std::cref(owner),
+        std::async(std::launch::async, draw_aside, std::ref(contexts),
                    StaticContents{view, lights, table, scale, false}, target.get_future());
     target = {};
     EXPECT_THROW(drawn.get(), std::future_error);

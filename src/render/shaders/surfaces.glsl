@@ -15,8 +15,11 @@ flat in ivec4 v_shading;  // bodies that may take light
 
 const float kFar = 1e30;
 const int kSection = -2;  // and below: the cut through plane kSection - item
-// An edge is sought this many pixels around a pixel's centre: half a pixel's diagonal and some.
-const float kEdgeReach = 0.8;
+// An edge is sought this far around a pixel's centre, whose outermost samples lie 5 / 12 of a pixel
+// from it along both axes: their diagonal and some, pixels, and where the change from pixel to pixel
+// is known along both axes, in sums of these changes.
+const float kEdgeReach = 0.68;
+const float kEdgeSteps = 0.48;
 
 #if defined(ORTHOGRAPHIC) || defined(REFLECTION)
 vec3 g_start = vec3(0.0);  // of the ray that is followed; set before nearest_surface()
@@ -45,7 +48,7 @@ vec3 safe_direction(vec3 d) {
 void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
     vec2 slope = -pixel_at(t) * n.xy / min(dot(n, d), -1e-6);
     slope = abs(slope.x) + abs(slope.y) < kFar ? abs(slope) : vec2(kFar);
-    if (abs(t - hit.t) < kEdgeReach * (slope.x + slope.y + hit.slope.x + hit.slope.y))
+    if (abs(t - hit.t) < kEdgeSteps * (slope.x + slope.y + hit.slope.x + hit.slope.y))
         hit.edge = true;
     if (t < hit.t) {
         hit.t = t;
@@ -110,7 +113,7 @@ void meet_boxes(inout Hit hit, vec3 d) {
             vec3 px = vec3(rx.x, ry.x, rz.x), py = vec3(rx.y, ry.y, rz.y);
             vec3 step_px = abs(px - rd * (dot(px, along) / rd_axis)) +
                            abs(py - rd * (dot(py, along) / rd_axis));
-            vec3 inside = half_edge - abs(ro + t_in * rd) - kEdgeReach * pixel_at(t_in) * step_px +
+            vec3 inside = half_edge - abs(ro + t_in * rd) - kEdgeSteps * pixel_at(t_in) * step_px +
                           along * kFar;
             bool border = min(min(inside.x, inside.y), inside.z) < 0.0;
             if (t_in < hit.t && border) hit.edge = true;
