@@ -14,8 +14,8 @@
 #include "cli/cpu_timer.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
-#include "cli/large_pages.h"
 #include "cli/options.h"
+#include "cli/short_lived.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
@@ -121,7 +121,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     stats.add_painter(painter);
     if (!options.common.stats_path.empty())
         write_text_file(options.common.stats_path, stats_json(stats, &simulated));
-    return kExitDone;
+    end_at_once(kExitDone);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-#include "cli/large_pages.h"
+#include "cli/short_lived.h"
 
 #include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 
 namespace carom {
@@ -23,6 +24,11 @@ void prefer_large_pages() {
     const std::uintptr_t past_page = reinterpret_cast<std::uintptr_t>(begin) % page;
     if (past_page != 0) begin += page - past_page;
     if (begin < end) madvise(begin, static_cast<std::size_t>(end - begin), MADV_HUGEPAGE);
+}
+
+void end_at_once(int exit_code) {
+    std::fflush(nullptr);
+    std::quick_exit(exit_code);
 }
 
 }  // namespace carom
