@@ -39,7 +39,13 @@ void main() {
 #ifdef SEVERAL_STYLES
     v_style = a_color.w;
 #endif
-    float turn = (float(gl_VertexID) + 0.5) * 0.78539816339;
-    vec2 pixel = a_bound.xy + a_axes.xy * cos(turn) + a_axes.zw * sin(turn);
+    // Corners at odd multiples of 22.5 degrees; drivers would compile much for a sine.
+    const float kLong = 0.92387953, kShort = 0.38268343;
+    int corner = gl_VertexID & 7, of_four = corner & 3;
+    bool flat_one = of_four == 0 || of_four == 3;
+    float x = flat_one ? kLong : kShort, y = flat_one ? kShort : kLong;
+    if (corner >= 2 && corner < 6) x = -x;
+    if (corner >= 4) y = -y;
+    vec2 pixel = a_bound.xy + a_axes.xy * x + a_axes.zw * y;
     gl_Position = vec4(2.0 * pixel / u_size - 1.0, 0.0, 1.0);
 }
