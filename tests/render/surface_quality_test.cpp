@@ -69,6 +69,21 @@ TEST_P(SurfaceQuality, BoxMatchesSixtyFourSamples) {
                          GetParam().name);
 }
 
+// Seen flatly, so that most of the light is mirrored: edges and patterns of the image are as good as
+// those of the box.
+TEST_P(SurfaceQuality, MirroredBoxMatchesSixtyFourSamples) {
+    HandMadeScene scene;
+    scene.camera({0.3, -3, 0.32}, {0, 0, 0.1}, 30);
+    const int floor = scene.look(LookStyle::kPlain, {0.05, 0.05, 0.06});
+    scene.scene.looks.back().reflection = 1;
+    scene.surface(PlaneShape{}, floor);
+    const Quat turned(Eigen::AngleAxisd(0.5, Vec3(0.2, 0, 1).normalized()));
+    scene.surface(BoxShape{{0, 0.2, 0.5}, {1.0, 0.7, 0.4}, turned}, look_of(scene, GetParam()));
+    testing::expect_good(testing::edge_errors(scene.paint(kWidth, kHeight),
+                                              testing::reference_of(scene, kWidth, kHeight)),
+                         std::string("mirrored ") + GetParam().name);
+}
+
 INSTANTIATE_TEST_SUITE_P(Patterns, SurfaceQuality, ::testing::ValuesIn(kPatterns), pattern_name);
 
 HandMadeScene polished_floor(double reflection) {

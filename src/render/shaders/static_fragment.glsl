@@ -34,9 +34,9 @@ vec3 albedo(Hit hit, vec3 d, float part) {
         return surface(hit.item, 4).rgb;
     }
     float facing = min(dot(hit.n, d), -1e-6);
-    vec3 dx = vec3(1, 0, 0) - d * (hit.n.x / facing);
-    vec3 dy = vec3(0, 1, 0) - d * (hit.n.y / facing);
-    mat2 step = pixel_at(hit.t) * part * mat2(dot(u, dx), dot(v, dx), dot(u, dy), dot(v, dy));
+    vec3 dx = g_right - d * (dot(hit.n, g_right) / facing);
+    vec3 dy = g_down - d * (dot(hit.n, g_down) / facing);
+    mat2 step = pixel_on(hit.t) * part * mat2(dot(u, dx), dot(v, dx), dot(u, dy), dot(v, dy));
     vec3 p = g_start + hit.t * d;
     return pattern(hit.item, vec2(dot(u, p), dot(v, p)) + origin, step);
 }
@@ -98,8 +98,8 @@ Shaded shade(Hit hit, vec3 d, float part, int sample_index) {
     vec3 body = albedo(hit, d, part);
     float facing = max(dot(hit.n, u_light), 0.0);
     float tilt = min(dot(hit.n, d), -1e-3);
-    vec3 px = pixel_at(hit.t) * part * (vec3(1, 0, 0) - d * (hit.n.x / tilt));
-    vec3 py = pixel_at(hit.t) * part * (vec3(0, 1, 0) - d * (hit.n.y / tilt));
+    vec3 px = pixel_on(hit.t) * part * (g_right - d * (dot(hit.n, g_right) / tilt));
+    vec3 py = pixel_on(hit.t) * part * (g_down - d * (dot(hit.n, g_down) / tilt));
     float visible = 1.0, open = 1.0;
 #ifdef SEVERAL
     vec2 lit = open_to_light(p, hit.n, 1e-4 * hit.t, px, py, hit.item, u_ao_reach_m, sample_index);
@@ -150,8 +150,8 @@ uint packed_normal(vec3 n) {
 
 void main() {
     // Sample 0 is the pixel's centre. Where it finds an edge, four more look for the depths of the two
-    // layers, and 6 x 6 more are averaged instead of it.
-    const int kProbes = 4, kSamples = 36;
+    // layers, and 24 more are averaged instead of it.
+    const int kProbes = 4, kSamples = 24;
     vec3 color = vec3(0.0), front = vec3(0.0), n_near = vec3(0.0), n_far = vec3(0.0);
     float direct = 0.0, ambient = 0.0, weight = 0.0, front_weight = 0.0;
     float t_near = 0.0, t_far = 0.0, split = 0.0, opaque = 0.0;
@@ -164,10 +164,12 @@ void main() {
         vec2 at = vec2(0.0);
         int fine = i - 1 - kProbes;
         if (i > 0) {
-            float k = float(fine < 0 ? i - 1 : fine), edge = fine < 0 ? 2.0 : 6.0;
-            float row = floor((k + 0.5) / edge);
-            // Both grids reach equally far out: a line that cuts off a sample cuts off a probe.
-            at = (vec2(k - edge * row, row) / (edge - 1.0) - 0.5) * (5.0 / 6.0);
+            // A lattice: 24 different places along x and along y, evenly spread along all other
+            // directions too. The probes lie around all of it: a line that cuts off a sample cuts off
+            // a probe.
+            float k = float(fine);
+            at = fine < 0 ? vec2(i & 1, (i >> 1) & 1) * 23.0 : vec2(k, mod(5.0 * k + 8.0, 24.0));
+            at = (at - 11.5) / 24.0;
         }
         vec3 d = ray_through(gl_FragCoord.xy + at);
 #ifdef ORTHOGRAPHIC
@@ -195,9 +197,15 @@ void main() {
                     ways = 2;
                     ray = reflect(d, hit.n);
                     g_start = g_start + hit.t * d + hit.n * (1e-4 * hit.t);
+                    g_before = hit.t;
+                    g_right = reflect(g_right, hit.n);
+                    g_down = reflect(g_down, hit.n);
                 }
             } else {
                 g_start = eye;
+                g_before = 0.0;
+                g_right = vec3(1, 0, 0);
+                g_down = vec3(0, 1, 0);
                 bool sky = met.item < 0;
                 m = vec4(add_mirrored(s, hit, d, share, sky ? background(ray) : seen.color),
                          sky ? kFar : met.t);

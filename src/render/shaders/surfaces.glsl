@@ -15,16 +15,26 @@ flat in ivec4 v_shading;  // bodies that may take light
 
 const float kFar = 1e30;
 const int kSection = -2;  // and below: the cut through plane kSection - item
-// An edge is sought this far around a pixel's centre, whose outermost samples lie 5 / 12 of a pixel
+// An edge is sought this far around a pixel's centre, whose outermost samples lie 23 / 48 of a pixel
 // from it along both axes: their diagonal and some, pixels, and where the change from pixel to pixel
 // is known along both axes, in sums of these changes.
-const float kEdgeReach = 0.68;
-const float kEdgeSteps = 0.48;
+const float kEdgeReach = 0.74;
+const float kEdgeSteps = 0.52;
 
 #if defined(ORTHOGRAPHIC) || defined(REFLECTION)
 vec3 g_start = vec3(0.0);  // of the ray that is followed; set before nearest_surface()
 #else
 const vec3 g_start = vec3(0.0);
+#endif
+#ifdef REFLECTION
+// Of a ray from a mirror: the depth of the pixel's ray there, and the directions in which the rays of
+// the neighbouring pixels differ from it.
+float g_before = 0.0;
+vec3 g_right = vec3(1, 0, 0), g_down = vec3(0, 1, 0);
+float pixel_on(float t) { return pixel_at(g_before + t); }
+#else
+const vec3 g_right = vec3(1, 0, 0), g_down = vec3(0, 1, 0);
+float pixel_on(float t) { return pixel_at(t); }  // width of a pixel at the depth t of the ray
 #endif
 
 vec4 surface(int item, int slot) { return texelFetch(u_surfaces, item * 8 + slot); }
@@ -46,7 +56,7 @@ vec3 safe_direction(vec3 d) {
 
 // Takes a nearer surface into `hit`. Two surfaces at nearly the same depth meet in this pixel.
 void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
-    vec2 slope = -pixel_at(t) * n.xy / min(dot(n, d), -1e-6);
+    vec2 slope = -pixel_on(t) * vec2(dot(n, g_right), dot(n, g_down)) / min(dot(n, d), -1e-6);
     slope = abs(slope.x) + abs(slope.y) < kFar ? abs(slope) : vec2(kFar);
     if (abs(t - hit.t) < kEdgeSteps * (slope.x + slope.y + hit.slope.x + hit.slope.y))
         hit.edge = true;
@@ -97,7 +107,7 @@ void meet_boxes(inout Hit hit, vec3 d) {
 
         // Would a box that is a pixel's width larger be met?
         float depth = min(max(abs(t_in), abs(t_out)), length(center.xyz) + center.w);
-        vec3 wider = abs(inverse_rd) * (half_edge + kEdgeReach * pixel_at(depth));
+        vec3 wider = abs(inverse_rd) * (half_edge + kEdgeReach * pixel_on(depth));
         vec3 enter_wide = middle - wider, leave_wide = middle + wider;
         float wide_in = max(max(enter_wide.x, enter_wide.y), enter_wide.z);
         float wide_out = min(min(leave_wide.x, leave_wide.y), leave_wide.z);
@@ -110,10 +120,11 @@ void meet_boxes(inout Hit hit, vec3 d) {
             vec3 n = n_box.x * rx.xyz + n_box.y * ry.xyz + n_box.z * rz.xyz;
             // How far the point on the face moves from pixel to pixel, along each axis of the box.
             float rd_axis = dot(rd, along);
-            vec3 px = vec3(rx.x, ry.x, rz.x), py = vec3(rx.y, ry.y, rz.y);
+            vec3 px = vec3(dot(rx.xyz, g_right), dot(ry.xyz, g_right), dot(rz.xyz, g_right));
+            vec3 py = vec3(dot(rx.xyz, g_down), dot(ry.xyz, g_down), dot(rz.xyz, g_down));
             vec3 step_px = abs(px - rd * (dot(px, along) / rd_axis)) +
                            abs(py - rd * (dot(py, along) / rd_axis));
-            vec3 inside = half_edge - abs(ro + t_in * rd) - kEdgeSteps * pixel_at(t_in) * step_px +
+            vec3 inside = half_edge - abs(ro + t_in * rd) - kEdgeSteps * pixel_on(t_in) * step_px +
                           along * kFar;
             bool border = min(min(inside.x, inside.y), inside.z) < 0.0;
             if (t_in < hit.t && border) hit.edge = true;
@@ -138,7 +149,7 @@ void meet_spheres(inout Hit hit, vec3 d) {
         float q = dot(across, across);
         float reach = sphere.w * sphere.w - q;
         float t = middle - sqrt(max(reach, 0.0) / dd);
-        if (here && abs(sqrt(q) - sphere.w) < kEdgeReach * pixel_at(middle) && t < hit.t) hit.edge = true;
+        if (here && abs(sqrt(q) - sphere.w) < kEdgeReach * pixel_on(middle) && t < hit.t) hit.edge = true;
         if (here && reach > 0.0 && t > 0.0)
             take(hit, t, item, (t * d - sphere.xyz) / sphere.w, 0, d);
     } while (++i < v_seen.z);
@@ -185,7 +196,7 @@ void meet_capsules(inout Hit hit, vec3 d) {
             float reach = a.w * a.w - dot(across, across);
             if (reach > 0.0) t = min(t, middle - sqrt(reach / dd));
         }
-        if (here && abs(nearest.x - a.w) < kEdgeReach * pixel_at(nearest.y) && nearest.y - a.w < hit.t)
+        if (here && abs(nearest.x - a.w) < kEdgeReach * pixel_on(nearest.y) && nearest.y - a.w < hit.t)
             hit.edge = true;
         if (here && t > 0.0 && t < kFar) {
             vec3 p = t * d - a.xyz;
@@ -226,7 +237,7 @@ float outside_box(vec3 q) { return length(max(q, 0.0)) + min(max(max(q.x, q.y), 
 // 64 rays.
 // y: 1 in the open, less where other surfaces come close within `reach` above the point, looked up at
 // three heights.
-// `sample_index` 0 ... 35 takes an eighth of the rays and one of the heights, which differ from one
+// `sample_index` 0 ... 23 takes an eighth of the rays and one of the heights, which differ from one
 // sample of an edge to the next; -1 takes all of them.
 vec2 open_to_light(vec3 p, vec3 n, float lift, vec3 px, vec3 py, int own, float reach, int sample_index) {
     bool all = sample_index < 0;
