@@ -88,7 +88,7 @@ class BallBillboards {
     };
     std::optional<MirrorPlane> mirror_;
     double light_tan_;
-    bool with_static_, with_mirrors_;  ///< what its programs look at
+    bool with_static_, with_mirrors_;          ///< what its programs look at
     std::map<LookStyle, GlProgram> programs_;  ///< by style; one alone draws all of them
     GlVertexArray vertex_array_;
     GlBuffer instance_buffer_;

@@ -64,8 +64,8 @@ class OffscreenContext::Impl {
 
     void make_current() {
         if (osmesa().OSMesaGetCurrentContext() == context_) return;
-        if (osmesa().OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummyEdge, kDummyEdge) !=
-            GL_TRUE)
+        if (osmesa().OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummyEdge,
+                                       kDummyEdge) != GL_TRUE)
             throw Failure(FailureKind::kRun, "OSMesa cannot make its context current");
     }
 

@@ -149,15 +149,16 @@ class Painter::Impl {
     void make_passes(const PainterOptions& options) {
         const View& view = setup_.view;
         const Lights& lights = setup_.lights;
-        if (setup_.overlay.has_moving_under_layer()) moving_layer_.emplace(gl_, width_px_, height_px_);
-        const bool on_surfaces = setup_.moving ? !scene_.surfaces.empty() : setup_.surfaces.count() > 0;
+        if (setup_.overlay.has_moving_under_layer())
+            moving_layer_.emplace(gl_, width_px_, height_px_);
+        const bool on_surfaces =
+            setup_.moving ? !scene_.surfaces.empty() : setup_.surfaces.count() > 0;
         if (on_surfaces && !scene_.balls.empty()) shadows_.emplace(gl_, scene_, view, lights);
         BallSurroundings around;
         around.occluded = setup_.surfaces.can_occlude();
         around.mirrored = wants_reflection(scene_) && !scene_.balls.empty() && !transparent_;
         if (options.few_pictures) around.programs = BallPrograms::kOneForAll;
-        if (around.mirrored)
-            reflections_.emplace(gl_, scene_, view, lights, setup_.scale, around);
+        if (around.mirrored) reflections_.emplace(gl_, scene_, view, lights, setup_.scale, around);
         balls_.emplace(gl_, scene_, view, lights, around);
         if (against_ != nullptr) {
             constexpr double kGhostOutlinePx = 2.2;  // at 720
@@ -188,7 +189,8 @@ class Painter::Impl {
     }
 
     std::vector<TileBound> seen_in_tiles() const {
-        if (!setup_.surfaces.can_occlude()) return {};  // on one plane the shadows' own bounds are tight
+        if (!setup_.surfaces.can_occlude())
+            return {};  // on one plane the shadows' own bounds are tight
         return background_->tile_bounds(setup_.view, ShadowTiles::kTilePx);
     }
 
@@ -228,8 +230,9 @@ class Painter::Impl {
 
     std::vector<double> exposure_at(double t) const {
         const Exposure exposure(scene_.film, motion_.duration, t);
-        double way =
-            setup_.moving ? camera_way_px(setup_.camera, camera_motion(), exposure, width_px_, height_px_) : 0;
+        double way = setup_.moving ? camera_way_px(setup_.camera, camera_motion(), exposure,
+                                                   width_px_, height_px_)
+                                   : 0;
         // Balls are seen from where the camera is at t.
         const View view(camera_at(setup_.camera, camera_motion(), t), width_px_, height_px_);
         way += ball_way_px(scene_, motion_, exposure, view);
@@ -275,7 +278,8 @@ class Painter::Impl {
 
     void draw_moving_layer(double t) {
         OverlayPainter::Rect changed = setup_.overlay.update_moving_under_layer(t);
-        if (setup_.moving) changed = {0, 0, width_px_, height_px_};  // the one before saw another view
+        if (setup_.moving)
+            changed = {0, 0, width_px_, height_px_};  // the one before saw another view
         if (!changed.empty())
             moving_layer_->update(setup_.overlay.moving_under_layer(), changed.x, changed.y,
                                   changed.width, changed.height);

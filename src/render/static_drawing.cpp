@@ -91,8 +91,7 @@ void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTa
     program.set("u_size", Vec2(view.width_px(), view.height_px()));
     program.set("u_surfaces", 0);
     program.set("u_listed", 1);
-    program.set("u_counts",
-                std::array{table.planes, table.boxes, table.spheres, table.capsules});
+    program.set("u_counts", std::array{table.planes, table.boxes, table.spheres, table.capsules});
     program.set("u_fade_m", scale.fade_m);
     program.set("u_ao_reach_m", scale.ao_reach_m);
     GlVec4Array surfaces(gl), listed(gl);

@@ -69,8 +69,8 @@ TEST_P(SurfaceQuality, BoxMatchesSixtyFourSamples) {
                          GetParam().name);
 }
 
-// Seen flatly, so that most of the light is mirrored: edges and patterns of the image are as good as
-// those of the box.
+// Seen flatly, so that most of the light is mirrored: edges and patterns of the image are as good
+// as those of the box.
 TEST_P(SurfaceQuality, MirroredBoxMatchesSixtyFourSamples) {
     HandMadeScene scene;
     scene.camera({0.3, -3, 0.32}, {0, 0, 0.1}, 30);
