@@ -74,6 +74,15 @@ class ExitCodes(ProgramTest):
         process.stderr.close()
 
 
+class Libraries(ProgramTest):
+    def test_drivers_and_codecs_are_loaded_only_when_needed(self):
+        # The loader's own list: what is loaded before any command begins.
+        result = run(env={"LD_TRACE_LOADED_OBJECTS": "1"})
+        self.assertIn("libode", result.stdout)
+        for library in ("libOSMesa", "libLLVM", "libavcodec", "libswscale"):
+            self.assertNotIn(library, result.stdout)
+
+
 class Check(ProgramTest):
     def test_json(self):
         bad = self.write("bad.yaml", "carom: 1\nbals: []\n")

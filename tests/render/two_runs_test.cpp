@@ -168,6 +168,44 @@ TEST(SideBySide, EqualRunsGiveEqualHalves) {
     EXPECT_GT(dark, 300) << "the ball";
 }
 
+// The halves share a driver and its programs, but not balls and surfaces: each is the half that it
+// is beside itself, also where the camera moves.
+TEST(SideBySide, HalvesDoNotGetIntoEachOthersWay) {
+    const auto made = [](double speed, double floor, LookStyle style) {
+        HandMadeScene scene = one_ball({0, 0, 0});
+        scene.scene.camera->orbit_deg_per_s = 20;
+        scene.motion.duration = 1;
+        scene.motion.balls[0] = Trajectory();
+        Piece piece;
+        piece.velocity = {speed, 0, 0.2 * speed};
+        scene.motion.balls[0].append(piece);
+        const int look = scene.look(style, {0.9, 0.9, 0.9}, {0.3, 0.3, 0.4});
+        scene.surface(PlaneShape{Vec3::UnitZ(), floor}, look);
+        scene.surface(BoxShape{{0.5, 0.4, floor}, {0.3, 0.3, 0.6}, Quat::Identity()}, look);
+        return scene;
+    };
+    const HandMadeScene a = made(0.1, -0.5, LookStyle::kChecker);
+    const HandMadeScene b = made(0.7, -0.8, LookStyle::kPlain);
+    const auto beside = [](const HandMadeScene& left, const HandMadeScene& right) {
+        const SecondRun second = second_of(right, AgainstView::kSide);
+        return painted(left, &second, 1);
+    };
+    const Image both = beside(a, b), left = beside(a, a), right = beside(b, b);
+    constexpr int kHalf = (kWidth - 2) / 2;
+    int wrong = 0, unlike = 0;
+    for (int y = 30; y < 140; ++y) {  // below the captions
+        for (int x = 0; x < kWidth; ++x) {
+            const Image& same = x < kHalf ? left : right;
+            const Image& other = x < kHalf ? right : left;
+            const std::uint8_t* pixel = both.row(y) + 4 * x;
+            wrong += std::equal(pixel, pixel + 4, same.row(y) + 4 * x) ? 0 : 1;
+            unlike += std::equal(pixel, pixel + 4, other.row(y) + 4 * x) ? 0 : 1;
+        }
+    }
+    EXPECT_EQ(0, wrong);
+    EXPECT_GT(unlike, 10'000);
+}
+
 TEST(OverlayAgainst, SaysTheDistanceAndWhoseItIs) {
     HandMadeScene a, b;
     for (HandMadeScene* made : {&a, &b})
