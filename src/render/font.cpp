@@ -6,6 +6,7 @@
 #include <fontconfig/fontconfig.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/failure.h"
 
@@ -38,8 +39,21 @@ const FcChar8* fc_text(const char* text) { return reinterpret_cast<const FcChar8
                               family, instead.empty() ? "nothing" : "'" + instead + "'"));
 }
 
-/// File and index of the face, and nothing else: settings of the machine must not change pixels.
+/// File and index of a face, and nothing else: settings of the machine must not change pixels.
+Pattern face_in(const char* file, int index) {
+    Pattern face(FcPatternCreate());
+    if (!face) throw Failure(FailureKind::kRun, "fontconfig has no memory for a pattern");
+    FcPatternAddString(face.get(), FC_FILE, fc_text(file));
+    FcPatternAddInteger(face.get(), FC_INDEX, index);
+    return face;
+}
+
 Pattern find_face(const std::string& family) {
+    // Where the package puts it; fontconfig would read all of its configuration to find the same.
+    constexpr const char* kPackaged = "/usr/share/fonts/opentype/inter/Inter-Medium.otf";
+    if (family == kOverlayFontFamily && std::filesystem::exists(kPackaged))
+        return face_in(kPackaged, 0);
+
     Pattern wish(FcPatternCreate());
     if (!wish) throw Failure(FailureKind::kRun, "fontconfig has no memory for a pattern");
     FcPatternAddString(wish.get(), FC_FAMILY, fc_text(family.c_str()));
@@ -60,11 +74,7 @@ Pattern find_face(const std::string& family) {
     if (FcPatternGetString(found.get(), FC_FILE, 0, &file) != FcResultMatch)
         font_is_missing(family, "a face without a file");
     FcPatternGetInteger(found.get(), FC_INDEX, 0, &index);
-    Pattern face(FcPatternCreate());
-    if (!face) throw Failure(FailureKind::kRun, "fontconfig has no memory for a pattern");
-    FcPatternAddString(face.get(), FC_FILE, file);
-    FcPatternAddInteger(face.get(), FC_INDEX, index);
-    return face;
+    return face_in(reinterpret_cast<const char*>(file), index);
 }
 
 void require(cairo_status_t status, const std::string& family) {
