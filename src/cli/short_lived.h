@@ -3,10 +3,9 @@
 
 namespace carom {
 
-/// Asks for the heap in large parts, of large pages where the system gives them on request, and
-/// hands nothing back: a page fault each 4 KiB would cost a still about a tenth of its time. To be
-/// called early, in the main thread. Only the speed depends on it.
-void prefer_large_pages();
+/// Asks the system for the heap in large parts, and hands nothing back. (Not in large pages: where a
+/// host takes back what its guests do not use, they cost more than they save.)
+void ask_for_memory_in_large_parts();
 
 /// Ends the process once all is written: the system frees what a driver would take apart piece by
 /// piece, a thirtieth of a still's time.

@@ -71,7 +71,7 @@ std::vector<double> instants(const StillOptions& options) {
 }
 
 int still(const StillOptions& options, const Interrupt& interrupt) {
-    prefer_large_pages();
+    ask_for_memory_in_large_parts();
     Stats stats;
     check_output(options);
     const DriverPreload driver;
