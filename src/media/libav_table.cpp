@@ -1,51 +1,31 @@
 #include "media/libav_table.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <string>
-
-#include "core/failure.h"
+#include "core/shared_library.h"
 
 namespace carom {
 
 namespace {
 
-std::string loader_message() {
-    const char* text = dlerror();
-    return text == nullptr ? "unknown error" : text;
-}
-
-/// Never closed: its functions are called until the program ends.
-void* open_library(const char* name, int major) {
-    const std::string file = fmt::format("lib{}.so.{}", name, major);
-    void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
-    if (library == nullptr)
-        throw Failure(FailureKind::kRun,
-                      fmt::format("films need FFmpeg, but its library {} cannot be loaded: {}",
-                                  file, loader_message()));
-    return library;
-}
-
-template <class Function>
-void find(Function& function, void* library, const char* name) {
-    function = reinterpret_cast<Function>(dlsym(library, name));
-    if (function == nullptr)
-        throw Failure(FailureKind::kRun, fmt::format("FFmpeg's libraries have no function {}: {}",
-                                                     name, loader_message()));
+SharedLibrary open_library(const char* name, int major) {
+    return SharedLibrary(fmt::format("lib{}.so.{}", name, major), "films need FFmpeg");
 }
 
 Libav load() {
+    const SharedLibrary avutil = open_library("avutil", LIBAVUTIL_VERSION_MAJOR);
+    const SharedLibrary avcodec = open_library("avcodec", LIBAVCODEC_VERSION_MAJOR);
+    const SharedLibrary avformat = open_library("avformat", LIBAVFORMAT_VERSION_MAJOR);
+    const SharedLibrary swscale = open_library("swscale", LIBSWSCALE_VERSION_MAJOR);
     Libav table;
-    void* library = nullptr;
-#define CAROM_LIBAV_FIND(name) find(table.name, library, #name);
-    library = open_library("avutil", LIBAVUTIL_VERSION_MAJOR);
+#define CAROM_LIBAV_FIND(name) library->find(table.name, #name);
+    const SharedLibrary* library = &avutil;
     CAROM_AVUTIL_FUNCTIONS(CAROM_LIBAV_FIND)
-    library = open_library("avcodec", LIBAVCODEC_VERSION_MAJOR);
+    library = &avcodec;
     CAROM_AVCODEC_FUNCTIONS(CAROM_LIBAV_FIND)
-    library = open_library("avformat", LIBAVFORMAT_VERSION_MAJOR);
+    library = &avformat;
     CAROM_AVFORMAT_FUNCTIONS(CAROM_LIBAV_FIND)
-    library = open_library("swscale", LIBSWSCALE_VERSION_MAJOR);
+    library = &swscale;
     CAROM_SWSCALE_FUNCTIONS(CAROM_LIBAV_FIND)
 #undef CAROM_LIBAV_FIND
     return table;

@@ -1,0 +1,28 @@
+// Libraries that are loaded when they are first needed.
+#pragma once
+
+#include <string>
+
+namespace carom {
+
+/// Stays loaded until the process ends: its functions may be called until then.
+class SharedLibrary {
+  public:
+    /// `file`: such as "libOSMesa.so.8"; `need`: who needs what, for messages: "pictures need
+    /// OSMesa". Failure(kRun) with the loader's own text if it cannot be loaded.
+    SharedLibrary(std::string file, std::string need);
+
+    /// Fills a pointer to the function of that name. Failure(kRun) if there is none.
+    template <class Function>
+    void find(Function& function, const char* name) const {
+        function = reinterpret_cast<Function>(address(name));
+    }
+
+  private:
+    void* address(const char* name) const;
+
+    std::string file_, need_;
+    void* handle_;
+};
+
+}  // namespace carom
