@@ -64,7 +64,7 @@ class OverlayPainter::Impl {
         }
         if (const auto verdict = judge_rebound(scene, motion)) {
             verdict_.emplace(scene, motion, *verdict, view_.width_px(), view_.height_px(),
-                             obstacles_, kOverlayFontFamily, palette_);
+                             obstacles_, around_ruler(), kOverlayFontFamily, palette_);
             obstacles_.push_back(verdict_->rect());
         }
         if (runs.second != nullptr) {

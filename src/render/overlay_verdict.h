@@ -12,10 +12,13 @@ namespace carom {
 
 class OverlayVerdict {
   public:
-    /// `scene` has a test. The plate stands in the middle of the top, or below what is `taken`.
+    /// `scene` has a test. The plate stands in the middle of the top, below what is `written`
+    /// there; where it would cover more of what is `taken` (`written`, and the ruler), in the
+    /// middle of the bottom, or in rows at a side. If there is no room at all, at the top.
     OverlayVerdict(const Scene& scene, const Motion& motion, const ReboundVerdict& verdict,
-                   int width_px, int height_px, const std::vector<OverlayPainter::Rect>& taken,
-                   const std::string& font_family, const Palette& palette = {});
+                   int width_px, int height_px, const std::vector<OverlayPainter::Rect>& written,
+                   const std::vector<OverlayPainter::Rect>& taken, const std::string& font_family,
+                   const Palette& palette = {});
 
     /// Shown in the film's last two seconds, but never before the rebound's top.
     bool shown_at(double t) const { return t >= from_s_; }
