@@ -10,9 +10,11 @@
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/short_lived.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
 #include "media/png.h"
+#include "render/offscreen.h"
 #include "render/painter.h"
 #include "sim/simulate.h"
 
@@ -63,10 +65,26 @@ bool matches(const GoldenOptions& options, const std::string& path, const Image&
     return false;
 }
 
-/// Runs `use` on every wanted still of one scene. False when the scene is invalid.
+/// Draws stills of one scene after the other, with one driver: scenes that want the same programs
+/// find them made.
+class Stills {
+  public:
+    Stills(const GoldenOptions& options, const Interrupt& interrupt)
+        : options_(options), interrupt_(interrupt) {}
+
+    /// Runs `use` on every wanted still of one scene. False when the scene is invalid.
+    template <class Use>
+    bool for_each(const std::string& path, const Use& use);
+
+  private:
+    const GoldenOptions& options_;
+    const Interrupt& interrupt_;
+    std::shared_ptr<DrawingContexts> contexts_;
+};
+
 template <class Use>
-bool for_each_still(const GoldenOptions& options, const std::string& path,
-                    const Interrupt& interrupt, const Use& use) {
+bool Stills::for_each(const std::string& path, const Use& use) {
+    const GoldenOptions& options = options_;
     const std::optional<FilmScenes> scenes = load_film_scenes(path, options.common, {});
     if (!scenes) return false;
     const Scene* scene = &scenes->scene;
@@ -74,11 +92,21 @@ bool for_each_still(const GoldenOptions& options, const std::string& path,
     if (times.empty())
         throw Failure(FailureKind::kInput,
                       fmt::format("{}: no stills: name them with film.stills or --time", path));
-    const SimulationResult simulated = simulate(*scene, interrupt.token());
+    const SimulationResult simulated = simulate(*scene, interrupt_.token());
     const std::optional<FilmedSecond> second =
-        simulate_second(*scenes, simulated.motion, interrupt.token());
-    Painter painter(*scene, simulated.motion,
-                    {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
+        simulate_second(*scenes, simulated.motion, interrupt_.token());
+    PainterOptions painting;
+    painting.width_px = scene->film.width_px;
+    painting.height_px = scene->film.height_px;
+    painting.against = second ? &second->run : nullptr;
+    painting.few_pictures =
+        draws_sooner_than_it_compiles(painting.width_px, painting.height_px, times.size());
+    if (!contexts_) {
+        if (painting.few_pictures) prefer_quick_compile();
+        contexts_ = std::make_shared<DrawingContexts>();
+    }
+    painting.contexts = contexts_;
+    Painter painter(*scene, simulated.motion, painting);
     Image picture;
     for (const double time : times) {
         if (!(time >= 0 && time <= simulated.motion.duration))
@@ -93,10 +121,10 @@ bool for_each_still(const GoldenOptions& options, const std::string& path,
 
 int check(const GoldenOptions& options, const Interrupt& interrupt) {
     bool valid = true, same = true;
+    Stills stills(options, interrupt);
     for (const std::string& scene : options.scenes)
-        valid &= for_each_still(
-            options, scene, interrupt,
-            [&](const std::string& path, const Image& drawn, const std::string& renderer) {
+        valid &= stills.for_each(
+            scene, [&](const std::string& path, const Image& drawn, const std::string& renderer) {
                 same &= matches(options, path, drawn, renderer);
             });
     if (!valid) return kExitInvalidScene;
@@ -110,18 +138,16 @@ int update(const GoldenOptions& options, const Interrupt& interrupt) {
         throw Failure(FailureKind::kOutput,
                       fmt::format("making the folder {}: {}", options.folder, error.message()));
     bool valid = true;
+    Stills stills(options, interrupt);
     for (const std::string& scene : options.scenes)
-        valid &=
-            for_each_still(options, scene, interrupt,
-                           [&](const std::string& path, const Image& drawn, const std::string&) {
-                               // A golden that still holds stays as it is, so that its history
-                               // shows real changes.
-                               if (fs::exists(path) &&
-                                   ImageTolerance{}.accepts(compare_images(read_png(path), drawn)))
-                                   return;
-                               write_png(path, drawn, PngEffort::kSmall);
-                               write_standard_output(fmt::format("written: {}\n", path));
-                           });
+        valid &= stills.for_each(scene, [&](const std::string& path, const Image& drawn,
+                                            const std::string&) {
+            // A golden that still holds stays as it is, so that its history shows real changes.
+            if (fs::exists(path) && ImageTolerance{}.accepts(compare_images(read_png(path), drawn)))
+                return;
+            write_png(path, drawn, PngEffort::kSmall);
+            write_standard_output(fmt::format("written: {}\n", path));
+        });
     return valid ? kExitDone : kExitInvalidScene;
 }
 

@@ -7,6 +7,11 @@
 
 namespace carom {
 
+bool draws_sooner_than_it_compiles(int width_px, int height_px, std::size_t pictures) {
+    constexpr double kFewPixels = 1.5e6;  // found on two cores without a GPU
+    return static_cast<double>(pictures) * width_px * height_px <= kFewPixels;
+}
+
 void ask_for_memory_in_large_parts() {
     constexpr int kPart = 64 << 20, kNeverTrim = 1 << 30;
     constexpr int kLargestInHeap = 32 << 20;  // the largest that malloc accepts

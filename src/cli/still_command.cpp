@@ -97,13 +97,11 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
         throw Failure(FailureKind::kInput, fmt::format("--time {}: the motion lasts from 0 to {} s",
                                                        options.time, duration));
 
-    // Beyond a few million pixels well compiled shaders pay.
-    constexpr int kFewPixels = 1500 * 1000;
     PainterOptions painting;
     painting.width_px = scene->film.width_px;
     painting.height_px = scene->film.height_px;
     painting.against = second ? &second->run : nullptr;
-    painting.few_pictures = painting.width_px * painting.height_px <= kFewPixels;
+    painting.few_pictures = draws_sooner_than_it_compiles(painting.width_px, painting.height_px);
     if (painting.few_pictures) prefer_quick_compile();
     painting.only_at = options.time;
     Painter painter(*scene, simulated.motion, painting);
