@@ -221,17 +221,25 @@ Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font,
         cairo_stroke(c);
     }
 
+    // The unit stands above the staff, or, where that is out of the picture, behind the top number.
     const double halo = 0.2 * font.size_px();
+    const double unit_y = layout.high_px.y() - 0.6 * font.size_px();
+    const bool above = unit_y - font.cap_height_px() - halo >= 0;
+    const RulerTick* top = nullptr;
+    for (const RulerTick& tick : layout.ticks)
+        if (!tick.label.empty() && (top == nullptr || tick.px.y() < top->px.y())) top = &tick;
     for (const RulerTick& tick : layout.ticks) {
         if (tick.label.empty()) continue;
-        const TextRun text = font.lay_out(tick.label);
+        const TextRun text = font.lay_out(tick.label + (&tick == top && !above ? " m" : ""));
         const double near_edge = tick.px.x() + away * (width + 6 * unit);
         font.draw(canvas, text, away > 0 ? near_edge : near_edge - text.width_px,
                   tick.px.y() + 0.5 * font.cap_height_px(), palette.ink, halo, palette.paper);
     }
-    const TextRun metres = font.lay_out("m");
-    font.draw(canvas, metres, layout.high_px.x() + away * 0.5 * width - 0.5 * metres.width_px,
-              layout.high_px.y() - 0.6 * font.size_px(), palette.ink, halo, palette.paper);
+    if (above) {
+        const TextRun metres = font.lay_out("m");
+        font.draw(canvas, metres, layout.high_px.x() + away * 0.5 * width - 0.5 * metres.width_px,
+                  unit_y, palette.ink, halo, palette.paper);
+    }
     canvas.finish();
     return picture;
 }

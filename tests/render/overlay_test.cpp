@@ -73,6 +73,33 @@ TEST(Font, EveryDigitIsEquallyWide) {
 
 // ---- The ruler ---------------------------------------------------------------------------------
 
+// Above the staff; where the picture ends too soon for that, behind the top number, and not cut
+// off.
+TEST(Ruler, UnitIsNeverCutOff) {
+    const Sample sample = five_balls();
+    const View view = view_of(sample, {320, 180});
+    const Font font(kOverlayFontFamily, ruler_font_px(view));
+    const auto drawn = [&](double top_px) {
+        RulerLayout layout;
+        layout.low_px = {100, 170};
+        layout.high_px = {100, top_px};
+        layout.ticks = {{0, layout.low_px, TickRank::kMajor, "0"},
+                        {3, layout.high_px, TickRank::kMajor, "3"}};
+        return draw_ruler(layout, view, font);
+    };
+    const auto inked = [](const Image& picture, int x0, int x1, int y0, int y1) {
+        int count = 0;
+        for (int y = y0; y < y1; ++y)
+            for (int x = x0; x < x1; ++x) count += picture.row(y)[4 * x + 3] > 0 ? 1 : 0;
+        return count;
+    };
+    const Image roomy = drawn(60), tight = drawn(9);
+    EXPECT_GT(inked(roomy, 85, 115, 30, 57), 20) << "the unit above the staff";
+    EXPECT_EQ(0, inked(roomy, 60, 76, 50, 70)) << "only the number beside it";
+    EXPECT_EQ(0, inked(tight, 92, 115, 0, 7)) << "nothing above the staff";
+    EXPECT_GT(inked(tight, 60, 76, 0, 20), 10) << "number and unit beside it";
+}
+
 TEST(Ruler, ReadsTheGapUnderABall) {
     // The ball's lowest point at a gap of h stands level with the mark of h, at every height.
     Sample sample = drop(1.8, 0.12, 4);
