@@ -7,10 +7,9 @@
 namespace carom {
 
 /// Every function that carom calls: X(its name).
-#define CAROM_OSMESA_FUNCTIONS(X)                                              \
-    X(OSMesaCreateContextAttribs)                                              \
-    X(OSMesaDestroyContext) X(OSMesaGetCurrentContext) X(OSMesaGetProcAddress) \
-        X(OSMesaMakeCurrent)
+#define CAROM_OSMESA_FUNCTIONS(X) \
+    X(OSMesaCreateContextAttribs) \
+    X(OSMesaDestroyContext) X(OSMesaGetCurrentContext) X(OSMesaGetProcAddress) X(OSMesaMakeCurrent)
 
 /// Each function under its own name.
 struct OsMesa {
