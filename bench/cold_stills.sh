@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # What a still costs from the start of the program to the PNG with no shader cache: for every scene,
-# at the last of its film.stills, the median of 5 by the clock and of CPU time.
-# usage: bench/cold_stills.sh [CAROM [SCENE...]]
+# at the last of its film.stills, the median of 5 by the clock and of CPU time. Several programs,
+# with commas between them, take turns, so that they meet the same minutes of the machine.
+# usage: bench/cold_stills.sh [CAROM[,OTHER...] [SCENE...]]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 carom=${1:-build/release/carom}
@@ -20,8 +21,7 @@ import tempfile
 import time
 
 RUNS = 5
-carom, scenes = sys.argv[1], sys.argv[2:]
-
+programs, scenes = sys.argv[1].split(","), sys.argv[2:]
 
 def cpu():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -33,14 +33,17 @@ with tempfile.TemporaryDirectory() as folder:
     for scene in scenes:
         with open(scene, encoding="utf-8") as file:
             at = re.search(r"stills: \[([^\]]*)\]", file.read()).group(1).split(",")[-1].strip()
-        walls, cpus = [], []
+        walls, cpus = {p: [] for p in programs}, {p: [] for p in programs}
         for _ in range(RUNS):
-            begin, used = time.perf_counter(), cpu()
-            subprocess.run([carom, "still", scene, "--time", at, "-q", "-y",
-                            "-o", f"{folder}/still.png"], check=True)
-            walls.append(time.perf_counter() - begin)
-            cpus.append(cpu() - used)
+            for program in programs:
+                begin, used = time.perf_counter(), cpu()
+                subprocess.run([program, "still", scene, "--time", at, "-q", "-y",
+                                "-o", f"{folder}/still.png"], check=True)
+                walls[program].append(time.perf_counter() - begin)
+                cpus[program].append(cpu() - used)
         name = scene.rsplit("/", 1)[-1].removesuffix(".yaml")
-        print(f"{name:<24} {at:>7} {statistics.median(walls):8.2f} {statistics.median(cpus):7.2f}",
-              flush=True)
+        for program in programs:
+            print(f"{name:<24} {at:>7} {statistics.median(walls[program]):8.2f} "
+                  f"{statistics.median(cpus[program]):7.2f}"
+                  + (f"  {program}" if len(programs) > 1 else ""), flush=True)
 PY
