@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/lights.h"
+#include "render/srgb.h"
 
 namespace carom {
 
@@ -14,17 +14,10 @@ double srgb_from_linear(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-std::array<double, 256> decoding() {
-    std::array<double, 256> table;
-    for (std::size_t i = 0; i < table.size(); ++i)
-        table[i] = linear_from_srgb(static_cast<double>(i) / 255);
-    return table;
-}
-
 }  // namespace
 
 void encode_alpha(Image& picture) {
-    const std::array<double, 256> linear = decoding();
+    const std::array<double, 256>& linear = srgb_decoding();
     for (std::size_t i = 0; i < picture.bgra.size(); i += 4) {
         std::uint8_t* pixel = &picture.bgra[i];
         // A trace of colour may be left where alpha has been rounded to 0.

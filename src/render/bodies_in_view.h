@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/balls_in_view.h"
-#include "render/picture_mean.h"
+#include "render/tile_mask.h"
 #include "render/two_runs.h"
 
 namespace carom {

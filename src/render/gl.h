@@ -37,6 +37,7 @@ namespace carom {
     X(PFNGLDRAWARRAYSPROC, DrawArrays) X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)       \
     X(PFNGLDRAWBUFFERSPROC, DrawBuffers) X(PFNGLENABLEPROC, Enable)                               \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) X(PFNGLFINISHPROC, Finish)       \
+    X(PFNGLFLUSHPROC, Flush)                                                                      \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D) X(PFNGLGENBUFFERSPROC, GenBuffers)     \
     X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers) X(PFNGLGENTEXTURESPROC, GenTextures)             \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays) X(PFNGLGETERRORPROC, GetError)                   \

@@ -6,19 +6,9 @@
 #include <cstdint>
 
 #include "render/lights.h"
+#include "render/srgb.h"
 
 namespace carom {
-
-namespace {
-
-std::uint8_t encoded(double linear) {
-    // IEC 61966-2-1
-    const double e =
-        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(e, 0.0, 1.0)));
-}
-
-}  // namespace
 
 LayerBounds filled_part(const Image& layer) {
     LayerBounds part{layer.width_px, layer.height_px, 0, 0};
@@ -36,9 +26,8 @@ LayerBounds filled_part(const Image& layer) {
 }
 
 void lay_over_in_linear_light(const Image& layer, int left, int top, Image& target) {
-    std::array<double, 256> decoded{};
-    for (std::size_t i = 0; i < decoded.size(); ++i)
-        decoded[i] = linear_from_srgb(static_cast<double>(i) / 255);
+    const std::array<double, 256>& decoded = srgb_decoding();
+    const SrgbEncoder encoded;
     for (int y = 0; y < target.height_px; ++y) {
         const std::uint8_t* from = layer.row(top + y) + std::ptrdiff_t{4} * left;
         std::uint8_t* to = target.row(y);

@@ -12,14 +12,11 @@
 #include "core/check.h"
 #include "core/failure.h"
 #include "render/alpha_encoding.h"
-#include "render/ball_billboards.h"
-#include "render/ball_reflections.h"
-#include "render/ball_shadows.h"
-#include "render/balls_in_view.h"
 #include "render/bodies_in_view.h"
 #include "render/camera_motion.h"
 #include "render/driver_clock.h"
 #include "render/exposure.h"
+#include "render/frame_passes.h"
 #include "render/offscreen.h"
 #include "render/picture_layer.h"
 #include "render/picture_mean.h"
@@ -59,27 +56,29 @@ class Painter::Impl {
         if (!setup_.moving)
             drawn = std::async(std::launch::async, draw_aside, std::ref(*contexts_),
                                StaticContents{setup_.view, setup_.lights, setup_.surfaces,
-                                              setup_.scale, transparent_},
-                               target.get_future());
+                                              setup_.scale, setup_.kind},
+                               target.get_future(), shares(options));
 
         gl_.Disable(GL_DITHER);
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
         gl_.Enable(GL_FRAMEBUFFER_SRGB);
         color_ =
             make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
-        frame_ = make_framebuffer(gl_, "the picture", {&color_});
-        background_.emplace(gl_, width_px_, height_px_, setup_.surfaces.reflection);
+        background_.emplace(gl_, width_px_, height_px_, setup_.kind);
+        passes_.emplace(*contexts_,
+                        FramePasses::Contents{scene, against_, transparent_, options.few_pictures},
+                        setup_, color_);
         target.set_value(&*background_);
-        if (setup_.moving) drawing_.emplace(gl_, transparent_).aim(*background_);
+        if (setup_.moving) drawing_.emplace(gl_, setup_.kind).aim(*background_);
         const Image static_layer = setup_.moving ? Image() : setup_.overlay.static_under_layer();
-        make_passes(options);
+        if (scene.film.shutter_deg > 0) mean_.emplace();
+        passes_->prepare(*background_);
         if (!setup_.moving) {
-            compile();
             draw_cpu_s_ += drawn.get();
             if (static_layer.width_px != 0) background_->lay_over(static_layer);
             // For a few pictures it is not worth the while to find out.
-            if (shadows_ && !options.few_pictures)
-                shadows_->set_view(scene, setup_.view, setup_.lights, seen_in_tiles());
+            if (!options.few_pictures)
+                passes_->see_in_tiles(setup_.view, setup_.lights, seen_in_tiles());
             check_not_blank();
         }
         gl_.check("preparing the picture");
@@ -112,14 +111,14 @@ class Painter::Impl {
             move_camera(t);
             if (!checked_) check_not_blank();
         }
-        draw_picture(bodies_at(instants), t, {0, 0, width_px_, height_px_});
-        if (blurred) mean_->write(frame_);
+        draw_picture(bodies_at(instants), t, {{0, 0, width_px_, height_px_}});
         gl_.Finish();
         const double drawn = clock_.now_s();
-        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_.name());
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, passes_->frame().name());
         gl_.ReadPixels(0, 0, width_px_, height_px_, GL_BGRA, GL_UNSIGNED_BYTE, out.bgra.data());
         gl_.check("drawing a frame");
         const double read = clock_.now_s();
+        if (blurred) mean_->write(out);
         if (transparent_) encode_alpha(out);
         setup_.overlay.draw_over(t, out);
         draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
@@ -145,52 +144,15 @@ class Painter::Impl {
                                   width_px_, height_px_, largest, largest));
     }
 
-    /// The programs of each frame.
-    void make_passes(const PainterOptions& options) {
-        const View& view = setup_.view;
-        const Lights& lights = setup_.lights;
-        if (setup_.overlay.has_moving_under_layer())
-            moving_layer_.emplace(gl_, width_px_, height_px_);
-        const bool on_surfaces =
-            setup_.moving ? !scene_.surfaces.empty() : setup_.surfaces.count() > 0;
-        if (on_surfaces && !scene_.balls.empty()) shadows_.emplace(gl_, scene_, view, lights);
-        BallSurroundings around;
-        around.occluded = setup_.surfaces.can_occlude();
-        around.mirrored = wants_reflection(scene_) && !scene_.balls.empty() && !transparent_;
-        if (options.few_pictures) around.programs = BallPrograms::kOneForAll;
-        if (around.mirrored) reflections_.emplace(gl_, scene_, view, lights, setup_.scale, around);
-        balls_.emplace(gl_, scene_, view, lights, around);
-        if (against_ != nullptr) {
-            constexpr double kGhostOutlinePx = 2.2;  // at 720
-            const Ink ink = ghost_ink(scene_.overlay.theme);
-            const GhostLook look{
-                {linear_from_srgb(ink.r), linear_from_srgb(ink.g), linear_from_srgb(ink.b)},
-                std::max(1.2, overlay_px(kGhostOutlinePx, height_px_))};
-            ghosts_.emplace(gl_, against_->scene, view, lights, around, look);
-        }
-        if (scene_.film.shutter_deg > 0) mean_.emplace(gl_, width_px_, height_px_);
-    }
-
-    /// Drivers compile a program when it is first used: uses them, while another thread draws the
-    /// static picture, in a viewport without extent.
-    void compile() {
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
-        gl_.Viewport(0, 0, 0, 0);
-        // llvmpipe compiles again where a program before has bound a texture in a buffer's place:
-        // in the order of a frame, from what one leaves behind.
-        if (mean_) mean_->compile(color_, frame_);
-        if (reflections_) reflections_->compile_blending(*background_, frame_);
-        if (moving_layer_) moving_layer_->compile();
-        if (shadows_) shadows_->compile(*background_);
-        if (reflections_) reflections_->compile(*background_, frame_);
-        if (moving_layer_) moving_layer_->compile();
-        balls_->compile(*background_);
-        if (ghosts_) ghosts_->compile(*background_);
+    /// What the thread that draws the static picture does next: where this is the one picture that
+    /// is drawn, programs are compiled by both threads.
+    std::function<void(const StaticPicture&)> shares(const PainterOptions& options) {
+        if (!options.few_pictures || options.contexts) return {};
+        return [this](const StaticPicture& drawn) { passes_->prepare_aside(drawn); };
     }
 
     std::vector<TileBound> seen_in_tiles() const {
-        if (!setup_.surfaces.can_occlude())
-            return {};  // on one plane the shadows' own bounds are tight
+        if (!setup_.kind.occludes) return {};  // on one plane the shadows' own bounds are tight
         return background_->tile_bounds(setup_.view, ShadowTiles::kTilePx);
     }
 
@@ -204,10 +166,8 @@ class Painter::Impl {
         drawing_->draw(view, lights, setup_.surfaces, setup_.scale);
         setup_.overlay.set_view(view);
         draw_static_layer();
-        if (shadows_) shadows_->set_view(scene_, view, lights, seen_in_tiles());
-        balls_->set_view(view, lights);
-        if (reflections_) reflections_->set_view(view, lights, setup_.scale);
-        if (ghosts_) ghosts_->set_view(view, lights);
+        if (passes_->has_shadows()) passes_->see_in_tiles(view, lights, seen_in_tiles());
+        passes_->set_view(view, lights, setup_.scale);
     }
 
     const Motion& camera_motion() const {
@@ -218,14 +178,12 @@ class Painter::Impl {
         return carom::bodies_at(instants, scene_, motion_, against_, setup_.view);
     }
 
-    /// Everything below the text, at the view as it is; of the background, the part in `bounds`.
-    void draw_picture(const Bodies& bodies, double t, const TileMask::Bounds& bounds) {
-        copy_background(bounds);
-        if (shadows_) shadows_->draw(bodies.balls, *background_);
-        if (reflections_) reflections_->draw(bodies.balls, *background_, frame_);
-        if (moving_layer_) draw_moving_layer(t);
-        balls_->draw(bodies.balls, *background_);
-        if (ghosts_) ghosts_->draw_ghosts(bodies.ghosts, bodies.balls, *background_);
+    /// Everything below the text, at the view as it is; of the background, what `parts` cover.
+    void draw_picture(const Bodies& bodies, double t, const std::vector<TileMask::Bounds>& parts) {
+        copy_background(parts);
+        passes_->draw_below(bodies, *background_);
+        if (setup_.overlay.has_moving_under_layer()) draw_moving_layer(t);
+        passes_->draw_balls(bodies, *background_);
     }
 
     std::vector<double> exposure_at(double t) const {
@@ -241,34 +199,25 @@ class Painter::Impl {
         return exposure_instants(exposure, t, way);
     }
 
+    static_assert(kMostInstants <= PictureMean::kMost);
     /// Sums the pictures of `instants` wherever they differ. Trails and the like are those of t.
     void sum_exposure(const std::vector<double>& instants, double t) {
-        TileMask mask(width_px_, height_px_, PictureMean::kTilePx);
+        TileMask mask(width_px_, height_px_, ShadowTiles::kTilePx);
         std::vector<Bodies> bodies;
         if (setup_.moving) {
             mask.add_all();
         } else {
             for (const double instant : instants) bodies.push_back(bodies_at({instant}));
-            for (const Bodies& now : bodies) mark_bodies(now, mask);
+            for (const Bodies& now : bodies) passes_->mark(now, setup_.view, mask);
         }
-        mean_->begin(mask, static_cast<int>(instants.size()));
+        mean_->begin(mask.parts(), static_cast<int>(instants.size()));
+        std::vector<TileMask::Bounds> changing;
+        for (const TileMask::Part& part : mean_->parts()) changing.push_back(part.bounds);
         for (std::size_t i = 0; i < instants.size(); ++i) {
             if (setup_.moving) move_camera(instants[i]);
-            draw_picture(setup_.moving ? bodies_at({instants[i]}) : bodies[i], t, mask.bounds());
-            mean_->add(color_);
+            draw_picture(setup_.moving ? bodies_at({instants[i]}) : bodies[i], t, changing);
+            mean_->add(gl_, passes_->frame());
         }
-    }
-
-    /// The tiles of the balls and of the shadows that they cast.
-    void mark_bodies(const Bodies& bodies, TileMask& mask) {
-        static_assert(PictureMean::kTilePx == ShadowTiles::kTilePx);
-        mark_balls(bodies.balls, setup_.view, mask);
-        mark_balls(bodies.ghosts, setup_.view, mask);
-        if (reflections_) mark_balls(reflections_->images(bodies.balls), setup_.view, mask);
-        if (!shadows_) return;
-        const std::vector<float>& tiles = shadows_->tiles_of(bodies.balls);
-        for (std::size_t i = 0; i < tiles.size(); i += 4)
-            mask.add_tile(static_cast<int>(tiles[i]), static_cast<int>(tiles[i + 1]));
     }
 
     void draw_static_layer() {
@@ -278,19 +227,26 @@ class Painter::Impl {
 
     void draw_moving_layer(double t) {
         OverlayPainter::Rect changed = setup_.overlay.update_moving_under_layer(t);
+        PictureLayer* layer = passes_->layer();
+        if (layer == nullptr) {
+            lay_over_once(gl_, setup_.overlay.moving_under_layer(), passes_->frame(), color_);
+            return;
+        }
         if (setup_.moving)
             changed = {0, 0, width_px_, height_px_};  // the one before saw another view
         if (!changed.empty())
-            moving_layer_->update(setup_.overlay.moving_under_layer(), changed.x, changed.y,
-                                  changed.width, changed.height);
-        moving_layer_->draw();
+            layer->update(setup_.overlay.moving_under_layer(), changed.x, changed.y, changed.width,
+                          changed.height);
+        layer->draw();
     }
 
-    void copy_background(const TileMask::Bounds& part) {
+    void copy_background(const std::vector<TileMask::Bounds>& parts) {
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, background_->color_framebuffer().name());
-        gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_.name());
-        gl_.BlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top,
-                            part.right, part.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, passes_->frame().name());
+        for (const TileMask::Bounds& part : parts)
+            gl_.BlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top,
+                                part.right, part.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
         gl_.Viewport(0, 0, width_px_, height_px_);
     }
 
@@ -300,12 +256,12 @@ class Painter::Impl {
         checked_ = true;
         constexpr float kMark = 0.3F;
         constexpr int kMarkByte = 77;
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
         gl_.ClearColor(kMark, kMark, kMark, transparent_ ? kMark : 0.0F);
         gl_.Clear(GL_COLOR_BUFFER_BIT);
-        copy_background({0, 0, width_px_, height_px_});
+        copy_background({{0, 0, width_px_, height_px_}});
         std::uint8_t pixel[4] = {};
-        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_.name());
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, passes_->frame().name());
         gl_.ReadPixels(width_px_ / 2, height_px_ / 2, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
         if (transparent_ ? pixel[3] == kMarkByte : pixel[3] != 255)
             throw Failure(FailureKind::kRun,
@@ -328,15 +284,11 @@ class Painter::Impl {
     DriverClock clock_;
     bool checked_ = false;  ///< that the driver draws anything
     GlTexture color_;
-    GlFramebuffer frame_;
     std::optional<StaticPicture> background_;
     std::optional<StaticDrawing> drawing_;  ///< again and again, where the camera moves
-    std::optional<PictureLayer> moving_layer_;
-    std::optional<BallShadows> shadows_;
-    std::optional<BallReflections> reflections_;
-    std::optional<BallBillboards> balls_, ghosts_;  ///< ghosts: of the second run
-    std::optional<PictureMean> mean_;               ///< where there is a shutter
-    std::size_t most_instants_ = 0;                 ///< of one picture
+    std::optional<FramePasses> passes_;
+    std::optional<PictureMean> mean_;  ///< where there is a shutter
+    std::size_t most_instants_ = 0;    ///< of one picture
     double read_cpu_s_ = 0;
 };
 
@@ -349,10 +301,10 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
     for (const Ball& ball : scene_.balls)
         marked |= scene_.looks[static_cast<std::size_t>(ball.look)].style != LookStyle::kPlain;
     const Overlay& overlay = scene_.overlay;
-    add("shadows", shadows_.has_value(), "balls over surfaces", "no ball, or no surface in view");
-    add("reflection", reflections_.has_value(), "a look with a reflection",
+    add("shadows", passes_->has_shadows(), "balls over surfaces", "no ball, or no surface in view");
+    add("reflection", passes_->has_reflections(), "a look with a reflection",
         transparent_ ? "not on a transparent background" : "no look asks for it");
-    add("occlusion", setup_.surfaces.can_occlude(), "bodies that balls can pass behind",
+    add("occlusion", setup_.kind.occludes, "bodies that balls can pass behind",
         "nothing that a ball could pass behind");
     add("markings", marked, "balls with a style", "all balls are plain");
     const std::pair<const char*, bool> asked[] = {
@@ -363,7 +315,7 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
         {"plot", overlay.plot.has_value()},     {"transparent", transparent_}};
     for (const auto& [name, on] : asked) add(name, on, "the scene asks for it", "not asked for");
     add("verdict", scene_.test.has_value(), "the scene has a test", "the scene has no test");
-    add("against", ghosts_.has_value(), "a second run as ghosts", "no second run");
+    add("against", passes_->has_ghosts(), "a second run as ghosts", "no second run");
     add("motion_blur", mean_.has_value(), "film.shutter_deg is above 0", "film.shutter_deg is 0");
     if (mean_)
         result["motion_blur"].why += fmt::format("; at most {} instants a picture", most_instants_);

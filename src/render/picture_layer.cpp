@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/check.h"
+#include "render/linear_layer.h"
 #include "render/tile_program.h"
 
 namespace carom {
@@ -96,6 +97,22 @@ void PictureLayer::draw_tiles(int count) {
     gl_->Enable(GL_BLEND);
     gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+}
+
+void lay_over_once(const Gl& gl, const Image& layer, const GlFramebuffer& target,
+                   const GlTexture& color) {
+    const LayerBounds part = filled_part(layer);
+    if (part.empty()) return;
+    Image below(part.right - part.left, part.bottom - part.top);
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
+    gl.ReadPixels(part.left, part.top, below.width_px, below.height_px, GL_BGRA, GL_UNSIGNED_BYTE,
+                  below.bgra.data());
+    lay_over_in_linear_light(layer, part.left, part.top, below);
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, color.name());
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, part.left, part.top, below.width_px, below.height_px,
+                     GL_BGRA, GL_UNSIGNED_BYTE, below.bgra.data());
+    gl.check("laying a layer over a picture");
 }
 
 }  // namespace carom

@@ -41,4 +41,9 @@ class PictureLayer {
     GlBuffer tile_buffer_;
 };
 
+/// The same for a layer that is laid over one picture, by the processor: compiling a program would
+/// take ten times as long. `target` draws into `color` alone.
+void lay_over_once(const Gl& gl, const Image& layer, const GlFramebuffer& target,
+                   const GlTexture& color);
+
 }  // namespace carom

@@ -1,6 +1,10 @@
 #include "render/picture_setup.h"
 
+#include <algorithm>
+#include <variant>
+
 #include "core/check.h"
+#include "render/ball_reflections.h"
 #include "render/camera_motion.h"
 #include "render/side_by_side.h"
 
@@ -34,6 +38,23 @@ Camera place_at(double t, const Camera& camera, const Motion& motion,
     return camera_at(camera, options.part != nullptr ? *options.part->camera_motion : motion, t);
 }
 
+/// A camera that moves may come to see what it does not see at first.
+StaticKind kind_of(const Scene& scene, const SurfaceTable& surfaces, bool moving) {
+    const auto is_plane = [](const Surface& surface) {
+        return std::holds_alternative<PlaneShape>(surface.shape);
+    };
+    StaticKind kind;
+    kind.transparent = scene.background == Background::kTransparent;
+    kind.occludes = surfaces.can_occlude();
+    kind.mirrors = surfaces.reflection;
+    if (moving) {
+        kind.occludes = scene.surfaces.size() > 1 ||
+                        !std::all_of(scene.surfaces.begin(), scene.surfaces.end(), is_plane);
+        kind.mirrors = wants_reflection(scene);
+    }
+    return kind;
+}
+
 OverlayPainter make_overlay(const Scene& scene, const Motion& motion, const PictureSetup& setup,
                             const PainterOptions& options) {
     OverlayPainter::Runs runs;
@@ -55,6 +76,7 @@ PictureSetup::PictureSetup(const Scene& scene, const Motion& motion, const Paint
       lights(choose_lights(View(place_at(scene.film.start, camera, motion, options),
                                 options.width_px, options.height_px))),
       surfaces(make_surface_table(scene, view)),
+      kind(kind_of(scene, surfaces, moving)),
       scale(scale_of(scene, first)),
       overlay(make_overlay(scene, motion, *this, options)) {}
 

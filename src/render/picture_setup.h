@@ -10,6 +10,7 @@
 #include "render/overlay.h"
 #include "render/painter.h"
 #include "render/picture_scale.h"
+#include "render/static_picture.h"
 #include "render/surface_table.h"
 #include "render/two_runs.h"
 #include "scene/scene.h"
@@ -31,6 +32,7 @@ struct PictureSetup {
     /// The lamp stays where it is, however the camera moves.
     Lights lights;
     SurfaceTable surfaces;
+    StaticKind kind;  ///< of the static picture, wherever the camera goes
     PictureScale scale;
     OverlayPainter overlay;
 };

@@ -6,7 +6,8 @@ namespace carom {
 
 namespace {
 
-std::vector<std::string> defines_for(const View& view, const SurfaceTable& table) {
+std::vector<std::string> defines_for(const View& view, const SurfaceTable& table,
+                                     const StaticKind& kind) {
     std::vector<std::string> defines = view_defines(view);
     if (table.planes > 0) defines.push_back("PLANES");
     if (table.boxes > 0) defines.push_back("BOXES");
@@ -14,21 +15,26 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
     if (table.capsules > 0) defines.push_back("CAPSULES");
     if (table.wood) defines.push_back("WOOD");
     if (table.court) defines.push_back("COURT");
-    if (table.reflection) defines.push_back("REFLECTION");
+    if (kind.occludes) defines.push_back("FRONT");
+    if (kind.mirrors) defines.push_back("REFLECTION");
+    if (kind.transparent) defines.push_back("TRANSPARENT");
     // Parallel rays see where a plane ends that they meet edge-on.
     if (table.count() > 1 || table.can_occlude() || view.orthographic())
         defines.push_back("SEVERAL");
     return defines;
 }
 
-GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines) {
+GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
+                       const StaticKind& kind) {
     GlProgram::Sources sources;
     sources.name = "static picture";
     sources.vertex = assemble_shader({}, {"static_vertex"});
     sources.fragment =
         assemble_shader(defines, {"surfaces", "surface_patterns", "static_fragment"});
     sources.attributes = {"a_rectangle", "a_seen", "a_shading"};
-    sources.outputs = {"out_color", "out_front", "out_facts", "out_mirror"};
+    sources.outputs = {"out_color", "out_facts"};  // as StaticPicture::targets() has them
+    if (kind.occludes) sources.outputs.push_back("out_front");
+    if (kind.mirrors) sources.outputs.push_back("out_mirror");
     return GlProgram(gl, sources);
 }
 
@@ -70,10 +76,9 @@ void StaticDrawing::aim(const StaticPicture& target) {
 }
 
 void StaticDrawing::compile(const View& view, const SurfaceTable& table) {
-    std::vector<std::string> defines = defines_for(view, table);
-    if (transparent_) defines.push_back("TRANSPARENT");
+    std::vector<std::string> defines = defines_for(view, table, kind_);
     if (program_ && defines == defines_) return;
-    program_ = make_program(*gl_, defines);
+    program_ = make_program(*gl_, defines, kind_);
     defines_ = std::move(defines);
 }
 
@@ -108,17 +113,21 @@ void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTa
 }
 
 double draw_aside(DrawingContexts& contexts, const StaticContents& contents,
-                  std::future<const StaticPicture*> target) {
+                  std::future<const StaticPicture*> target,
+                  const std::function<void(const StaticPicture&)>& then) {
     const double begin = thread_cpu_s();
     if (!contexts.aside) contexts.aside.emplace(contexts.main);
     const Current current(*contexts.aside);
     const Gl& gl = contexts.aside->gl();
     gl.Disable(GL_DITHER);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
-    StaticDrawing drawing(gl, contents.transparent);
+    StaticDrawing drawing(gl, contents.kind);
     drawing.compile(contents.view, contents.table);
-    drawing.aim(*target.get());
+    const StaticPicture& picture = *target.get();
+    drawing.aim(picture);
     drawing.draw(contents.view, contents.lights, contents.table, contents.scale);
+    gl.Flush();  // it is drawn by the driver's own threads meanwhile
+    if (then) then(picture);
     gl.Finish();
     return thread_cpu_s() - begin;
 }

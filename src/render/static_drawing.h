@@ -1,6 +1,7 @@
 // The pass that draws the static picture.
 #pragma once
 
+#include <functional>
 #include <future>
 #include <optional>
 #include <string>
@@ -21,9 +22,9 @@ namespace carom {
 class StaticDrawing {
   public:
     /// `gl` must outlive it.
-    StaticDrawing(const Gl& gl, bool transparent) : gl_(&gl), transparent_(transparent) {}
+    StaticDrawing(const Gl& gl, const StaticKind& kind) : gl_(&gl), kind_(kind) {}
 
-    /// What to draw into from now on, which must outlive it.
+    /// What to draw into from now on: a picture of this kind, which must outlive it.
     void aim(const StaticPicture& target);
     /// Makes the program for such views and surfaces, if it is another one than before.
     void compile(const View& view, const SurfaceTable& table);
@@ -37,7 +38,7 @@ class StaticDrawing {
 
   private:
     const Gl* gl_;
-    bool transparent_;
+    StaticKind kind_;
     std::vector<std::string> defines_;  ///< of the program
     std::optional<GlProgram> program_;
     GlFramebuffer framebuffer_;
@@ -49,13 +50,14 @@ struct StaticContents {
     const Lights& lights;
     const SurfaceTable& table;
     const PictureScale& scale;
-    bool transparent;
+    StaticKind kind;
 };
 
 /// Draws once with the context aside; for any thread. The program is made before `target` is waited
 /// for. When this returns the picture is complete and the context released; the thread's CPU
-/// seconds come back.
+/// seconds come back. `then`, if there is any, is called before that, with the context current.
 double draw_aside(DrawingContexts& contexts, const StaticContents& contents,
-                  std::future<const StaticPicture*> target);
+                  std::future<const StaticPicture*> target,
+                  const std::function<void(const StaticPicture&)>& then);
 
 }  // namespace carom

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "render/linear_layer.h"
+#include "render/picture_layer.h"
 
 namespace carom {
 
@@ -15,34 +15,27 @@ constexpr float kSky = 1e29f;  ///< depths beyond belong to no surface (surfaces
 
 }  // namespace
 
-StaticPicture::StaticPicture(const Gl& gl, int width, int height, bool reflection) : gl_(&gl) {
+StaticPicture::StaticPicture(const Gl& gl, int width, int height, const StaticKind& kind)
+    : gl_(&gl), kind_(kind) {
     color_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
-    front_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     facts_ = make_texture(gl, GL_RGBA32UI, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
-    if (reflection) mirror_.emplace(make_texture(gl, GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT));
+    if (kind.occludes)
+        front_.emplace(make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE));
+    if (kind.mirrors)
+        mirror_.emplace(make_texture(gl, GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT));
     color_framebuffer_ = make_framebuffer(gl, "copies of the static picture", {&color_});
     facts_framebuffer_ = make_framebuffer(gl, "facts of the static picture", {&facts_});
 }
 
 std::vector<const GlTexture*> StaticPicture::targets() const {
-    std::vector<const GlTexture*> targets = {&color_, &front_, &facts_};
+    std::vector<const GlTexture*> targets = {&color_, &facts_};
+    if (front_) targets.push_back(&*front_);
     if (mirror_) targets.push_back(&*mirror_);
     return targets;
 }
 
 void StaticPicture::lay_over(const Image& layer) {
-    const LayerBounds part = filled_part(layer);
-    if (part.empty()) return;
-    Image below(part.right - part.left, part.bottom - part.top);
-    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, color_framebuffer_.name());
-    gl_->ReadPixels(part.left, part.top, below.width_px, below.height_px, GL_BGRA, GL_UNSIGNED_BYTE,
-                    below.bgra.data());
-    lay_over_in_linear_light(layer, part.left, part.top, below);
-    gl_->ActiveTexture(GL_TEXTURE0);
-    gl_->BindTexture(GL_TEXTURE_2D, color_.name());
-    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, part.left, part.top, below.width_px, below.height_px,
-                       GL_BGRA, GL_UNSIGNED_BYTE, below.bgra.data());
-    gl_->check("laying a layer over the static picture");
+    lay_over_once(*gl_, layer, color_framebuffer_, color_);
 }
 
 std::vector<TileBound> StaticPicture::tile_bounds(const View& view, int tile_px) const {

@@ -16,18 +16,25 @@ struct TileBound {
     double radius = -1;  ///< negative: nothing but sky
 };
 
+/// What there is to know about a static picture besides its colours and facts.
+struct StaticKind {
+    bool occludes = false;  ///< balls can pass behind something
+    bool mirrors = false;   ///< a look has a reflection
+    bool transparent = false;
+};
+
 /// The static picture and, per pixel, what the passes of a frame need to know about it.
 class StaticPicture {
   public:
     /// `gl` must outlive it. Nothing is in it until a StaticDrawing has drawn it.
-    StaticPicture(const Gl& gl, int width_px, int height_px, bool reflection);
+    StaticPicture(const Gl& gl, int width_px, int height_px, const StaticKind& kind);
+
+    const StaticKind& kind() const { return kind_; }
 
     /// What a drawing of it fills.
     std::vector<const GlTexture*> targets() const;
 
     /// Lays a picture of the same size over the colours, in linear light: layers that do not move.
-    /// By the processor, since compiling a shader for a picture's ruler would take ten times as
-    /// long.
     void lay_over(const Image& layer);
 
     /// A framebuffer with the colours alone: the source of each frame's copy.
@@ -37,8 +44,8 @@ class StaticPicture {
     /// parts of the colour that are key light and ambient light, and of the nearer layer's share of
     /// the pixel; normal, octahedral, 2 x 16 bits. Row 0 is the picture's top.
     const GlTexture& facts() const { return facts_; }
-    /// Colour of the nearer layer alone.
-    const GlTexture& front() const { return front_; }
+    /// Colour of the nearer layer alone; only where balls can pass behind it.
+    const GlTexture& front() const { return *front_; }
 
     /// RGBA32F, only where a look has a reflection: the linear light that the surface mirrors of
     /// sky and bodies; how far these are from it, in lengths of the pixel's ray of depth 1.
@@ -49,8 +56,9 @@ class StaticPicture {
 
   private:
     const Gl* gl_;
-    GlTexture color_, front_, facts_;
-    std::optional<GlTexture> mirror_;
+    StaticKind kind_;
+    GlTexture color_, facts_;
+    std::optional<GlTexture> front_, mirror_;
     GlFramebuffer color_framebuffer_, facts_framebuffer_;
 };
 

@@ -91,8 +91,8 @@ class Studio {
         : view_(*made.scene.camera, kWidth, kHeight),
           lights_(choose_lights(view_)),
           table_(make_surface_table(made.scene, view_)),
-          transparent_(transparent),
-          picture_(contexts_.main.gl(), kWidth, kHeight, table_.reflection) {
+          kind_{table_.can_occlude(), table_.reflection, transparent},
+          picture_(contexts_.main.gl(), kWidth, kHeight, kind_) {
         scale_.ao_reach_m = 0.24;
         contexts_.main.gl().Disable(GL_DITHER);
         contexts_.main.gl().Enable(GL_FRAMEBUFFER_SRGB);
@@ -101,7 +101,7 @@ class Studio {
     BodyTiles everywhere() const { return all_bodies_everywhere(table_, view_); }
 
     Drawn draw(const BodyTiles& tiles) {
-        StaticDrawing drawing(contexts_.main.gl(), transparent_);
+        StaticDrawing drawing(contexts_.main.gl(), kind_);
         drawing.aim(picture_);
         drawing.draw(view_, lights_, table_, scale_, tiles);
         return read();
@@ -110,7 +110,7 @@ class Studio {
         std::promise<const StaticPicture*> target;
         std::future<double> drawn = std::async(
             std::launch::async, draw_aside, std::ref(contexts_),
-            StaticContents{view_, lights_, table_, scale_, transparent_}, target.get_future());
+            StaticContents{view_, lights_, table_, scale_, kind_}, target.get_future(), nullptr);
         target.set_value(&picture_);
         EXPECT_GT(drawn.get(), 0);
         return read();
@@ -133,7 +133,7 @@ class Studio {
     Lights lights_;
     SurfaceTable table_;
     PictureScale scale_;
-    bool transparent_;
+    StaticKind kind_;
     DrawingContexts contexts_;
     StaticPicture picture_;
 };

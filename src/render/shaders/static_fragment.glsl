@@ -5,7 +5,9 @@ uniform float u_fade_m;      // distance at which planes have mostly melted into
 uniform float u_ao_reach_m;  // how far a crevice darkens
 
 out vec4 out_color;
-out vec4 out_front;   // colour of the nearer of two layers alone, where an edge passes
+#ifdef FRONT
+out vec4 out_front;  // colour of the nearer of two layers alone, where an edge passes
+#endif
 out uvec4 out_facts;  // depth of the nearer layer, of the farther one; fractions; normal
 
 // Of the body, with its pattern.
@@ -152,8 +154,11 @@ void main() {
     // Sample 0 is the pixel's centre. Where it finds an edge, four more look for the depths of the two
     // layers, and 24 more are averaged instead of it.
     const int kProbes = 4, kSamples = 24;
-    vec3 color = vec3(0.0), front = vec3(0.0), n_near = vec3(0.0), n_far = vec3(0.0);
+    vec3 color = vec3(0.0), n_near = vec3(0.0), n_far = vec3(0.0);
     float direct = 0.0, ambient = 0.0, weight = 0.0, front_weight = 0.0;
+#ifdef FRONT
+    vec3 front = vec3(0.0);
+#endif
     float t_near = 0.0, t_far = 0.0, split = 0.0, opaque = 0.0;
 #ifdef REFLECTION
     vec4 mirror = vec4(0.0);
@@ -253,7 +258,9 @@ void main() {
             ambient += s.ambient;
             weight += 1.0;
             if (whole || hit.t <= split) {
+#ifdef FRONT
                 front += s.color;
+#endif
                 front_weight += 1.0;
             }
         }
@@ -267,7 +274,9 @@ void main() {
 #ifdef REFLECTION
     out_mirror = vec4(mirror.rgb / weight, mirror.a);
 #endif
+#ifdef FRONT
     out_front = vec4(front / max(front_weight, 1.0), 1.0);
+#endif
     out_facts = uvec4(floatBitsToUint(t_near), floatBitsToUint(t_far),
                       packed_unit(direct / weight, 10) | (packed_unit(ambient / weight, 10) << 10) |
                           (packed_unit(front_part, 10) << 20),

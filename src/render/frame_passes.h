@@ -1,0 +1,94 @@
+// The passes that draw what moves over the static picture, in their order.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "render/ball_billboards.h"
+#include "render/ball_reflections.h"
+#include "render/ball_shadows.h"
+#include "render/bodies_in_view.h"
+#include "render/offscreen.h"
+#include "render/picture_layer.h"
+#include "render/picture_setup.h"
+#include "render/static_picture.h"
+
+namespace carom {
+
+/// Shadows, mirror images, a layer, balls, ghosts: those that the scene has.
+///
+/// Programs take longer to compile than one picture to draw, and belong to the context that
+/// compiles them. So balls and ghosts may be drawn in the contexts' other one, where another thread
+/// has compiled them; every drawing here begins and ends in the main one.
+class FramePasses {
+  public:
+    struct Contents {
+        const Scene& scene;
+        const SecondRun* against;  ///< drawn as ghosts; may be null
+        bool transparent;
+        bool few_pictures;  ///< see PainterOptions
+    };
+    /// Of pictures in `color`. The main context is current, and all that is named must outlive it.
+    FramePasses(DrawingContexts& contexts, const Contents& contents, const PictureSetup& setup,
+                const GlTexture& color);
+    ~FramePasses();
+    FramePasses(const FramePasses&) = delete;
+    FramePasses& operator=(const FramePasses&) = delete;
+
+    /// Makes and compiles all that prepare_aside() has not taken. Before it, the picture's programs
+    /// that are used before these.
+    void prepare(const StaticPicture& background);
+    /// The same beginning from the last, while prepare() is on its way: from another thread, where
+    /// contexts.aside is current.
+    void prepare_aside(const StaticPicture& background);
+
+    /// Another view of the same size and kind; `seen`: see ShadowTiles. Not after prepare_aside().
+    void set_view(const View& view, const Lights& lights, const PictureScale& scale);
+    void see_in_tiles(const View& view, const Lights& lights, std::vector<TileBound> seen);
+
+    /// What lies below the layer, and what lies over it.
+    void draw_below(const Bodies& bodies, const StaticPicture& background);
+    void draw_balls(const Bodies& bodies, const StaticPicture& background);
+
+    /// Adds the tiles of the balls, of their images and of the shadows that they cast.
+    void mark(const Bodies& bodies, const View& view, TileMask& mask);
+
+    /// For draw_below() and all that the main context draws.
+    const GlFramebuffer& frame() const { return frame_; }
+    /// Of what moves below the balls, such as trails; null where nothing does, and where it is not
+    /// worth a program: see lay_over_once().
+    PictureLayer* layer() { return layer_ ? &*layer_ : nullptr; }
+    bool has_shadows() const { return shadows_.has_value(); }
+    bool has_reflections() const { return reflections_.has_value(); }
+    bool has_ghosts() const { return contents_.against != nullptr; }
+
+  private:
+    /// A pass that either thread prepares.
+    struct Shared {
+        std::optional<BallBillboards> pass;
+        bool aside = false;  ///< in whose context it is
+    };
+    Shared* take_first();
+    Shared* take_last();
+    void prepare(Shared& shared, const Gl& gl, const StaticPicture& background);
+    void draw_in_its_context(Shared& shared, const std::function<void(BallBillboards&)>& draw);
+
+    DrawingContexts& contexts_;
+    const Gl& gl_;
+    Contents contents_;
+    const PictureSetup& setup_;
+    const GlTexture& color_;
+    BallSurroundings around_;
+    GlFramebuffer frame_, frame_aside_;
+    std::optional<PictureLayer> layer_;
+    std::optional<BallShadows> shadows_;
+    std::optional<BallReflections> reflections_;
+    Shared balls_, ghosts_;
+    std::mutex taking_;
+    std::deque<Shared*> open_;  ///< not taken yet, in the order in which they are drawn
+};
+
+}  // namespace carom

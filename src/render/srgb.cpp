@@ -1,0 +1,30 @@
+#include "render/srgb.h"
+
+#include <limits>
+
+#include "render/lights.h"
+
+namespace carom {
+
+const std::array<double, 256>& srgb_decoding() {
+    static const std::array<double, 256> table = [] {
+        std::array<double, 256> linear{};
+        for (std::size_t code = 0; code < linear.size(); ++code)
+            linear[code] = linear_from_srgb(static_cast<double>(code) / 255);
+        return linear;
+    }();
+    return table;
+}
+
+SrgbEncoder::SrgbEncoder() {
+    for (std::size_t code = 0; code + 1 < limit_.size(); ++code)
+        limit_[code] = linear_from_srgb((static_cast<double>(code) + 0.5) / 255);
+    limit_.back() = std::numeric_limits<double>::infinity();
+    std::uint8_t code = 0;
+    for (int i = 0; i <= kGuesses; ++i) {
+        while (static_cast<double>(i) / kGuesses >= limit_[code]) ++code;
+        guess_[static_cast<std::size_t>(i)] = code;
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,77 @@
+#include "render/tile_mask.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/check.h"
+
+namespace carom {
+
+TileMask::TileMask(int width_px, int height_px, int tile_px)
+    : width_px_(width_px),
+      height_px_(height_px),
+      tile_px_(tile_px),
+      columns_((width_px + tile_px - 1) / tile_px),
+      rows_((height_px + tile_px - 1) / tile_px),
+      set_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+
+void TileMask::add_tile(int column, int row) {
+    CAROM_CHECK(column, <, columns_);
+    CAROM_CHECK(row, <, rows_);
+    const auto tile = static_cast<std::size_t>(row * columns_ + column);
+    if (!set_[tile]) ++count_;
+    set_[tile] = true;
+}
+
+void TileMask::add_all() { add(0, 0, width_px_, height_px_); }
+
+void TileMask::add(double left_px, double top_px, double right_px, double bottom_px) {
+    const auto tile = [&](double px, int most) {
+        return static_cast<int>(std::clamp(std::floor(px / tile_px_), -1.0, double(most)));
+    };
+    const int first = std::max(0, tile(left_px, columns_));
+    const int last = std::min(columns_ - 1, tile(right_px, columns_));
+    const int bottom = std::min(rows_ - 1, tile(bottom_px, rows_));
+    for (int row = std::max(0, tile(top_px, rows_)); row <= bottom; ++row)
+        for (int column = first; column <= last; ++column) add_tile(column, row);
+}
+
+TileMask::Bounds TileMask::bounds_of(int column, int row) const {
+    return {column * tile_px_, row * tile_px_, std::min(width_px_, (column + 1) * tile_px_),
+            std::min(height_px_, (row + 1) * tile_px_)};
+}
+
+std::vector<TileMask::Part> TileMask::parts() const {
+    std::vector<Part> parts;
+    std::vector<bool> open = set_;
+    std::vector<std::pair<int, int>> next;  // column, row
+    const auto reach = [&](int column, int row) {
+        if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
+        const auto tile = static_cast<std::size_t>(row * columns_ + column);
+        if (!open[tile]) return;
+        open[tile] = false;
+        next.emplace_back(column, row);
+    };
+    for (int start = 0; start < columns_ * rows_; ++start) {
+        reach(start % columns_, start / columns_);
+        if (next.empty()) continue;
+        Part& part = parts.emplace_back(Part{{width_px_, height_px_, 0, 0}, {}});
+        while (!next.empty()) {
+            const auto [column, row] = next.back();
+            next.pop_back();
+            const Bounds tile = bounds_of(column, row);
+            part.tiles.push_back(tile);
+            part.bounds = {
+                std::min(part.bounds.left, tile.left), std::min(part.bounds.top, tile.top),
+                std::max(part.bounds.right, tile.right), std::max(part.bounds.bottom, tile.bottom)};
+            reach(column - 1, row);
+            reach(column + 1, row);
+            reach(column, row - 1);
+            reach(column, row + 1);
+        }
+    }
+    return parts;
+}
+
+}  // namespace carom

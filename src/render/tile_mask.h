@@ -1,0 +1,41 @@
+// Square tiles of the picture in which something moves.
+#pragma once
+
+#include <vector>
+
+namespace carom {
+
+class TileMask {
+  public:
+    TileMask(int width_px, int height_px, int tile_px);
+
+    void add_all();
+    /// Everything that a rectangle touches; may reach beyond the picture.
+    void add(double left_px, double top_px, double right_px, double bottom_px);
+    void add_tile(int column, int row);
+
+    bool empty() const { return count_ == 0; }
+
+    /// Pixels, half open.
+    struct Bounds {
+        int left = 0, top = 0, right = 0, bottom = 0;
+        int width() const { return right - left; }
+        int height() const { return bottom - top; }
+    };
+    /// Tiles that hang together.
+    struct Part {
+        Bounds bounds;              ///< of all of them, within the picture
+        std::vector<Bounds> tiles;  ///< within the picture
+    };
+    /// All tiles, each in one part; bounds of parts may overlap.
+    std::vector<Part> parts() const;
+
+  private:
+    Bounds bounds_of(int column, int row) const;
+
+    int width_px_, height_px_, tile_px_, columns_, rows_;
+    int count_ = 0;
+    std::vector<bool> set_;
+};
+
+}  // namespace carom
