@@ -4,29 +4,12 @@
 #include <vector>
 
 #include "render/ball_billboards.h"
-#include "render/gl_program.h"
+#include "render/mirror_blend.h"
+#include "render/mirrors.h"
 #include "render/picture_scale.h"
 #include "render/static_picture.h"
 
 namespace carom {
-
-/// A flat part of a surface that mirrors; view space, metres.
-struct Mirror {
-    Vec3 normal = Vec3::UnitZ();  ///< unit
-    double offset = 0;            ///< points p with normal . p = offset
-    double strength = 0;          ///< Look::reflection
-    /// Of a box's top: its middle, and its axes over their half lengths, so that inside
-    /// |axis . (p - middle)| <= 1 holds for both. 0 on a plane.
-    Vec3 middle = Vec3::Zero(), axis_a = Vec3::Zero(), axis_b = Vec3::Zero();
-    bool fades = false;  ///< a plane, which melts into the horizon
-};
-
-/// The mirrors of a scene that this view sees from their front.
-std::vector<Mirror> find_mirrors(const Scene& scene, const View& view);
-
-/// The balls behind the mirror, in the order in which they must be drawn.
-std::vector<BallInView> mirror_images(const std::vector<BallInView>& balls, const Mirror& mirror,
-                                      const View& view);
 
 /// Exact: a mirror image of a sphere is a sphere, under mirrored light. Each mirror's images are
 /// drawn into a layer of their own, where no mirrored body hides them; what they hide of the
@@ -41,14 +24,13 @@ class BallReflections {
     /// Another view of the same size and kind.
     void set_view(const View& view, const Lights& lights, const PictureScale& scale);
 
-    /// Onto `frame`, over the static picture and the shadows.
+    /// Onto `frame`, which draws into `color`, over the static picture and the shadows.
     void draw(const std::vector<BallInView>& balls, const StaticPicture& background,
-              const GlFramebuffer& frame);
+              const GlFramebuffer& frame, const GlTexture& color);
 
-    /// Has its programs compiled, without drawing anything: into a viewport without extent, which
-    /// is the whole picture then.
+    /// Uses its program, for drivers that compile at the first use; the viewport is without extent,
+    /// and `frame` is bound in the end.
     void compile(const StaticPicture& background, const GlFramebuffer& frame);
-    void compile_blending(const StaticPicture& background, const GlFramebuffer& frame);
 
     /// All images that draw() would show.
     std::vector<BallInView> images(const std::vector<BallInView>& balls) const;
@@ -59,8 +41,8 @@ class BallReflections {
     };
     /// Where the images are, in parts that do not overlap.
     std::vector<Part> parts_of(const std::vector<BallInView>& images) const;
-    void blend_layer(const Mirror& mirror, const std::vector<Part>& parts,
-                     const StaticPicture& background);
+    void blend(const Mirror& mirror, const Part& part, const StaticPicture& background,
+               const GlFramebuffer& frame, const GlTexture& color);
 
     const Gl* gl_;
     const Scene* scene_;
@@ -71,11 +53,7 @@ class BallReflections {
     BallBillboards balls_;
     GlTexture layer_;
     GlFramebuffer layer_framebuffer_;
-    GlProgram program_;
-    GlVertexArray nothing_;
+    MirrorPart read_;
 };
-
-/// True where a look asks for a reflection on a plane or a box.
-bool wants_reflection(const Scene& scene);
 
 }  // namespace carom

@@ -99,7 +99,6 @@ void FramePasses::prepare(const StaticPicture& background) {
         draw_nothing(gl_);
         // llvmpipe compiles again where a program before has bound a texture in a buffer's place:
         // in the order of a frame, from what one leaves behind.
-        if (reflections_) reflections_->compile_blending(background, frame_);
         if (layer_) layer_->compile();
         if (shadows_) shadows_->compile(background);
         if (reflections_) reflections_->compile(background, frame_);
@@ -132,7 +131,7 @@ void FramePasses::see_in_tiles(const View& view, const Lights& lights,
 
 void FramePasses::draw_below(const Bodies& bodies, const StaticPicture& background) {
     if (shadows_) shadows_->draw(bodies.balls, background);
-    if (reflections_) reflections_->draw(bodies.balls, background, frame_);
+    if (reflections_) reflections_->draw(bodies.balls, background, frame_, color_);
 }
 
 void FramePasses::draw_balls(const Bodies& bodies, const StaticPicture& background) {

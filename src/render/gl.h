@@ -24,7 +24,6 @@ namespace carom {
     X(PFNGLBINDBUFFERPROC, BindBuffer) X(PFNGLBINDFRAGDATALOCATIONPROC, BindFragDataLocation)     \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer) X(PFNGLBINDTEXTUREPROC, BindTexture)             \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                  \
-    X(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate)                                      \
     X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                              \
     X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer) X(PFNGLBUFFERDATAPROC, BufferData)               \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus) X(PFNGLCLEARPROC, Clear)           \
@@ -34,7 +33,7 @@ namespace carom {
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers) X(PFNGLDELETEPROGRAMPROC, DeleteProgram)   \
     X(PFNGLDELETESHADERPROC, DeleteShader) X(PFNGLDELETETEXTURESPROC, DeleteTextures)             \
     X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays) X(PFNGLDISABLEPROC, Disable)               \
-    X(PFNGLDRAWARRAYSPROC, DrawArrays) X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)       \
+    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)       \
     X(PFNGLDRAWBUFFERSPROC, DrawBuffers) X(PFNGLENABLEPROC, Enable)                               \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) X(PFNGLFINISHPROC, Finish)       \
     X(PFNGLFLUSHPROC, Flush)                                                                      \

@@ -25,6 +25,8 @@ StaticPicture::StaticPicture(const Gl& gl, int width, int height, const StaticKi
         mirror_.emplace(make_texture(gl, GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT));
     color_framebuffer_ = make_framebuffer(gl, "copies of the static picture", {&color_});
     facts_framebuffer_ = make_framebuffer(gl, "facts of the static picture", {&facts_});
+    if (mirror_)
+        mirror_framebuffer_ = make_framebuffer(gl, "mirror of the static picture", {&*mirror_});
 }
 
 std::vector<const GlTexture*> StaticPicture::targets() const {

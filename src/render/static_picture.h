@@ -51,6 +51,10 @@ class StaticPicture {
     /// sky and bodies; how far these are from it, in lengths of the pixel's ray of depth 1.
     const GlTexture& mirror() const { return *mirror_; }
 
+    /// For reading them back.
+    const GlFramebuffer& facts_framebuffer() const { return facts_framebuffer_; }
+    const GlFramebuffer& mirror_framebuffer() const { return mirror_framebuffer_; }
+
     /// Bounds of square tiles, row by row from the top left; reads the facts back.
     std::vector<TileBound> tile_bounds(const View& view, int tile_px) const;
 
@@ -59,7 +63,7 @@ class StaticPicture {
     StaticKind kind_;
     GlTexture color_, facts_;
     std::optional<GlTexture> front_, mirror_;
-    GlFramebuffer color_framebuffer_, facts_framebuffer_;
+    GlFramebuffer color_framebuffer_, facts_framebuffer_, mirror_framebuffer_;
 };
 
 }  // namespace carom

@@ -43,7 +43,7 @@ class OnePixel {
         gl_.Viewport(0, 0, 1, 1);
         gl_.BindVertexArray(nothing_.name());
         program.use();
-        gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+        gl_.DrawArraysInstanced(GL_TRIANGLES, 0, 3, 1);
         Pixel pixel{};
         gl_.ReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
         gl_.check("a test");

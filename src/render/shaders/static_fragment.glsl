@@ -10,37 +10,44 @@ out vec4 out_front;  // colour of the nearer of two layers alone, where an edge 
 #endif
 out uvec4 out_facts;  // depth of the nearer layer, of the farther one; fractions; normal
 
-// Of the body, with its pattern.
+// Of the body, with its pattern. Reading a record takes longer than what is done with it, and is done
+// for all bodies alike.
 vec3 albedo(Hit hit, vec3 d, float part) {
-    vec3 u = vec3(0.0), v = vec3(0.0);
-    vec2 origin = vec2(0.0);
+    vec4 first = surface(hit.item, 4);
+    vec3 color = first.rgb;
+#if defined(PLANES) || defined(BOXES)
     bool is_plane = hit.item < u_counts.x;
-    bool is_box = !is_plane && hit.item < u_counts.x + u_counts.y;
-    if (is_plane) {
-        vec4 a = surface(hit.item, 6), b = surface(hit.item, 7);
-        u = a.xyz;
-        v = b.xyz;
-        origin = vec2(a.w, b.w);
-    } else if (is_box) {
-        vec4 a = surface(hit.item, hit.axis == 2 ? 1 : 2 + hit.axis);
-        vec4 b = surface(hit.item, hit.axis == 0 ? 3 : hit.axis);
-        vec3 center = surface(hit.item, 0).xyz;
-        u = a.xyz;
-        v = b.xyz;
-        origin = -vec2(dot(a.xyz, center), dot(b.xyz, center));
-        // Squares and planks begin at an edge; a court's middle is the top's, and the sides lie far
-        // beyond its lines.
-        if (surface(hit.item, 4).w != kCourtStyle) origin += vec2(a.w, b.w);
-        else if (dot(surface(hit.item, 7).xyz, hit.n) < 0.999) origin += 100.0;
-    } else {
-        return surface(hit.item, 4).rgb;
+    int slot_u = 6, slot_v = 7;
+#ifdef BOXES
+    if (!is_plane) {
+        slot_u = hit.axis == 2 ? 1 : 2 + hit.axis;
+        slot_v = hit.axis == 0 ? 3 : hit.axis;
     }
-    float facing = min(dot(hit.n, d), -1e-6);
-    vec3 dx = g_right - d * (dot(hit.n, g_right) / facing);
-    vec3 dy = g_down - d * (dot(hit.n, g_down) / facing);
-    mat2 step = pixel_on(hit.t) * part * mat2(dot(u, dx), dot(v, dx), dot(u, dy), dot(v, dy));
-    vec3 p = g_start + hit.t * d;
-    return pattern(hit.item, vec2(dot(u, p), dot(v, p)) + origin, step);
+#endif
+    vec4 u = surface(hit.item, slot_u), v = surface(hit.item, slot_v);
+    vec2 origin = vec2(u.w, v.w);
+#ifdef BOXES
+    vec3 center = is_plane ? vec3(0.0) : surface(hit.item, 0).xyz;
+    // Squares and planks begin at an edge; a court's middle is the top's, and the sides lie far
+    // beyond its lines.
+#ifdef COURT
+    if (!is_plane && first.w == kCourtStyle)
+        origin = vec2(dot(surface(hit.item, 7).xyz, hit.n) < 0.999 ? 100.0 : 0.0);
+#endif
+    origin -= vec2(dot(u.xyz, center), dot(v.xyz, center));
+#endif
+    if (hit.item < u_counts.x + u_counts.y) {
+        float facing = min(dot(hit.n, d), -1e-6);
+        vec3 dx = g_right - d * (dot(hit.n, g_right) / facing);
+        vec3 dy = g_down - d * (dot(hit.n, g_down) / facing);
+        mat2 step = pixel_on(hit.t) * part *
+                    mat2(dot(u.xyz, dx), dot(v.xyz, dx), dot(u.xyz, dy), dot(v.xyz, dy));
+        vec3 p = g_start + hit.t * d;
+        color = pattern(first, surface(hit.item, 5), vec2(dot(u.xyz, p), dot(v.xyz, p)) + origin,
+                        step);
+    }
+#endif
+    return color;
 }
 
 #ifdef REFLECTION
@@ -50,11 +57,13 @@ out vec4 out_mirror;
 
 // Part of the light from here that the surface mirrors.
 float reflected_part(Hit hit, vec3 d) {
-    bool is_box = hit.item >= u_counts.x;
     if (hit.item < 0 || hit.item >= u_counts.x + u_counts.y) return 0.0;
-    float strength = is_box ? surface(hit.item, 6).x : surface(hit.item, 1).x;
+    bool is_box = hit.item >= u_counts.x;
+    float strength = surface(hit.item, is_box ? 6 : 1).x;
+#ifdef BOXES
     // Of a box the top alone; which one that is stands beside the strength.
     if (is_box && dot(surface(hit.item, 7).xyz, hit.n) < 0.999) return 0.0;
+#endif
     return mirrored_share(strength, -dot(hit.n, normalize(d)));
 }
 #endif
