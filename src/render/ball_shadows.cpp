@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "core/check.h"
+
 namespace carom {
 
 namespace {
@@ -47,9 +49,15 @@ void BallShadows::set_view(const Scene& scene, const View& view, const Lights& l
     set_common_uniforms(program_, view, lights);
 }
 
-const std::vector<float>& BallShadows::tiles_of(const std::vector<BallInView>& balls) {
+void BallShadows::mark(const std::vector<BallInView>& balls, TileOwners& owners) {
+    CAROM_CHECK(owners.tile_px(), ==, ShadowTiles::kTilePx);
     tiles_.update(balls);
-    return tiles_.tiles();
+    const std::vector<float>& tiles = tiles_.tiles();
+    for (std::size_t i = 0; i < tiles.size(); i += 4)
+        for (int k = 0; k < static_cast<int>(tiles[i + 3]); ++k)
+            owners.add_tile(static_cast<std::size_t>(tiles_.caster_balls()[static_cast<std::size_t>(
+                                static_cast<int>(tiles[i + 2]) + k)]),
+                            static_cast<int>(tiles[i]), static_cast<int>(tiles[i + 1]));
 }
 
 void BallShadows::draw(const std::vector<BallInView>& balls, const StaticPicture& background) {

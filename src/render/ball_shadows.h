@@ -6,6 +6,7 @@
 #include "render/gl_program.h"
 #include "render/shadow_tiles.h"
 #include "render/static_picture.h"
+#include "render/tile_owners.h"
 
 namespace carom {
 
@@ -27,8 +28,8 @@ class BallShadows {
     /// Uses the program, for drivers that compile at the first use; the viewport is without extent.
     void compile(const StaticPicture& background);
 
-    /// The tiles that draw() may change: see ShadowTiles::tiles(). Holds until the next call.
-    const std::vector<float>& tiles_of(const std::vector<BallInView>& balls);
+    /// Adds the tiles that draw() may change. Ball i of the scene is body i.
+    void mark(const std::vector<BallInView>& balls, TileOwners& owners);
 
   private:
     void draw_tiles(const std::vector<float>& tiles, const std::vector<float>& casters,

@@ -90,6 +90,7 @@ void sort_for_drawing(std::vector<BallInView>& balls, const View& view) {
 }
 
 bool may_be_seen(const BallInView& ball, const View& view) {
+    if (!ball.drawn) return false;
     const bool around_eye = !view.orthographic() && ball.center.norm() <= ball.radius;
     const bool behind = ball.center.z() + (view.orthographic() ? 0 : ball.radius) <= 0;
     if (around_eye || behind) return false;

@@ -16,7 +16,8 @@ struct BallInView {
     Mat3 ball_from_view = Mat3::Identity();  ///< rotation into the ball's own axes
     int index = 0;                           ///< into Scene::balls
     int look = 0;                            ///< into Scene::looks
-    int instant = 0;  ///< balls of different instants cast no shadow on one another
+    int instant = 0;    ///< balls of different instants cast no shadow on one another
+    bool drawn = true;  ///< false: it is there for the shadows that it casts on other balls
 };
 
 /// A sphere's outline on the picture: an ellipse, pixels. There is none if the sphere reaches
@@ -43,7 +44,7 @@ std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scen
 /// Puts them in that order.
 void sort_for_drawing(std::vector<BallInView>& balls, const View& view);
 
-/// False where no pixel can show it: behind the eye, beside the picture, or around the eye.
+/// False where no pixel shows it: not drawn, behind the eye, beside the picture, or around the eye.
 bool may_be_seen(const BallInView& ball, const View& view);
 
 }  // namespace carom

@@ -32,14 +32,19 @@ Bodies bodies_at(const std::vector<double>& instants, const Scene& scene, const 
     return bodies;
 }
 
-void mark_balls(const std::vector<BallInView>& balls, const View& view, TileMask& mask) {
+void mark_balls(const std::vector<BallInView>& balls, std::size_t first, const View& view,
+                TileOwners& owners) {
     for (const BallInView& ball : balls) {
         const Outline outline = project_sphere(ball.center, ball.radius, view);
-        if (!outline.is_ellipse) return mask.add_all();
+        const std::size_t body = first + static_cast<std::size_t>(ball.index);
+        if (!outline.is_ellipse) {
+            owners.add_all(body);
+            continue;
+        }
         const double x = std::hypot(outline.major.x(), outline.minor.x()) + 1;
         const double y = std::hypot(outline.major.y(), outline.minor.y()) + 1;
-        mask.add(outline.center.x() - x, outline.center.y() - y, outline.center.x() + x,
-                 outline.center.y() + y);
+        owners.add(body, outline.center.x() - x, outline.center.y() - y, outline.center.x() + x,
+                   outline.center.y() + y);
     }
 }
 

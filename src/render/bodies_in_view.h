@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/balls_in_view.h"
-#include "render/tile_mask.h"
+#include "render/tile_owners.h"
 #include "render/two_runs.h"
 
 namespace carom {
@@ -18,7 +18,9 @@ struct Bodies {
 Bodies bodies_at(const std::vector<double>& instants, const Scene& scene, const Motion& motion,
                  const SecondRun* second, const View& view);
 
-/// Adds the tiles in which the balls are seen, with their soft edges.
-void mark_balls(const std::vector<BallInView>& balls, const View& view, TileMask& mask);
+/// Adds the tiles in which the balls are seen, with their soft edges. Ball i of a scene is the body
+/// first + i.
+void mark_balls(const std::vector<BallInView>& balls, std::size_t first, const View& view,
+                TileOwners& owners);
 
 }  // namespace carom

@@ -33,24 +33,28 @@ double Exposure::at(double part) const {
     return std::clamp(t, 0.0, longest_);
 }
 
-std::vector<double> exposure_instants(const Exposure& exposure, double t, double way_px) {
-    if (!(way_px > kLeastBlurPx)) return {t};
+int exposure_count(double way_px) {
+    if (!(way_px > kLeastBlurPx)) return 1;
     const double wanted = std::ceil(way_px / kExposureStepPx);
-    const int count = static_cast<int>(std::clamp(wanted, 2.0, double{kMostInstants}));
+    return static_cast<int>(std::clamp(wanted, 2.0, double{kMostInstants}));
+}
+
+std::vector<double> exposure_instants(const Exposure& exposure, int count) {
     std::vector<double> instants;
     for (int i = 0; i < count; ++i) instants.push_back(exposure.at((i + 0.5) / count));
     return instants;
 }
 
-double ball_way_px(const Scene& scene, const Motion& motion, const Exposure& exposure,
-                   const View& view) {
-    double longest = 0;
+std::vector<BallWay> ball_ways_px(const Scene& scene, const Motion& motion,
+                                  const Exposure& exposure, const View& view) {
+    std::vector<BallWay> ways;
     for (std::size_t b = 0; b < motion.balls.size(); ++b) {
         const double radius = scene.balls[b].radius;
         // Of a ball of one colour no turn is seen.
         const LookStyle style = scene.looks[static_cast<std::size_t>(scene.balls[b].look)].style;
         const bool marked = style != LookStyle::kPlain;
-        double way = 0, last_t = exposure.at(0);
+        BallWay way;
+        double last_t = exposure.at(0);
         View::Projected last = view.project(motion.balls[b].at(last_t).position);
         for (int i = 1; i <= kParts; ++i) {
             const double t = exposure.at(static_cast<double>(i) / kParts);
@@ -59,19 +63,21 @@ double ball_way_px(const Scene& scene, const Motion& motion, const Exposure& exp
             const bool ahead = std::min(last.depth_m, now.depth_m) > radius;
             // The ball, grown by its way, must reach into the picture to count.
             const double reach = ahead ? radius * view.pixels_per_metre(now.depth_m) : 0;
+            const double part = std::hypot(now.x_px - last.x_px, now.y_px - last.y_px) +
+                                (marked ? state.spin.norm() * (t - last_t) * reach : 0);
             const auto beside = [&](double a, double b2, int size) {
                 return std::max(a, b2) < -reach || std::min(a, b2) > size + reach;
             };
+            if (ahead) way.all += part;
             if (ahead && !beside(last.x_px, now.x_px, view.width_px()) &&
                 !beside(last.y_px, now.y_px, view.height_px()))
-                way += std::hypot(now.x_px - last.x_px, now.y_px - last.y_px) +
-                       (marked ? state.spin.norm() * (t - last_t) * reach : 0);
+                way.seen += part;
             last = now;
             last_t = t;
         }
-        longest = std::max(longest, way);
+        ways.push_back(way);
     }
-    return longest;
+    return ways;
 }
 
 double camera_way_px(const Camera& camera, const Motion& motion, const Exposure& exposure,

@@ -31,14 +31,20 @@ class Exposure {
     double longest_;
 };
 
-/// The instants to draw, each for an equal part of the film time and in its middle; `t` alone where
-/// nothing moves by kLeastBlurPx or the film has no shutter. `way_px` is what moves by how much.
-std::vector<double> exposure_instants(const Exposure& exposure, double t, double way_px);
+/// How many instants to draw of what comes so far in the picture, px; 1 where no blur is needed.
+int exposure_count(double way_px);
 
-/// How far balls come in the picture while the shutter is open, px: the largest of their paths,
-/// with the way of a point on the equator of a ball that spins and has markings.
-double ball_way_px(const Scene& scene, const Motion& motion, const Exposure& exposure,
-                   const View& view);
+/// `count` instants, each for an equal part of the film time and in its middle.
+std::vector<double> exposure_instants(const Exposure& exposure, int count);
+
+/// How far a ball comes while the shutter is open, px, with the way of a point on its equator if it
+/// spins and has markings.
+struct BallWay {
+    double seen = 0;  ///< of it, within the picture
+    double all = 0;   ///< also beside the picture, from where its shadow may reach into it
+};
+std::vector<BallWay> ball_ways_px(const Scene& scene, const Motion& motion,
+                                  const Exposure& exposure, const View& view);
 
 /// How far what stands still comes in the picture, px, when `camera` moves.
 double camera_way_px(const Camera& camera, const Motion& motion, const Exposure& exposure,

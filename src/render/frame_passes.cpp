@@ -160,14 +160,11 @@ void FramePasses::draw_in_its_context(Shared& shared,
     contexts_.main.make_current();
 }
 
-void FramePasses::mark(const Bodies& bodies, const View& view, TileMask& mask) {
-    mark_balls(bodies.balls, view, mask);
-    mark_balls(bodies.ghosts, view, mask);
-    if (reflections_) mark_balls(reflections_->images(bodies.balls), view, mask);
-    if (!shadows_) return;
-    const std::vector<float>& tiles = shadows_->tiles_of(bodies.balls);
-    for (std::size_t i = 0; i < tiles.size(); i += 4)
-        mask.add_tile(static_cast<int>(tiles[i]), static_cast<int>(tiles[i + 1]));
+void FramePasses::mark(const Bodies& bodies, const View& view, TileOwners& owners) {
+    mark_balls(bodies.balls, 0, view, owners);
+    mark_balls(bodies.ghosts, contents_.scene.balls.size(), view, owners);
+    if (reflections_) mark_balls(reflections_->images(bodies.balls), 0, view, owners);
+    if (shadows_) shadows_->mark(bodies.balls, owners);
 }
 
 }  // namespace carom

@@ -53,8 +53,9 @@ class FramePasses {
     void draw_below(const Bodies& bodies, const StaticPicture& background);
     void draw_balls(const Bodies& bodies, const StaticPicture& background);
 
-    /// Adds the tiles of the balls, of their images and of the shadows that they cast.
-    void mark(const Bodies& bodies, const View& view, TileMask& mask);
+    /// Adds the tiles of the balls, of their images and of the shadows that they cast. Bodies are
+    /// the scene's balls, then those of the second run.
+    void mark(const Bodies& bodies, const View& view, TileOwners& owners);
 
     /// For draw_below() and all that the main context draws.
     const GlFramebuffer& frame() const { return frame_; }

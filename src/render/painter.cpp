@@ -16,6 +16,7 @@
 #include "render/camera_motion.h"
 #include "render/driver_clock.h"
 #include "render/exposure.h"
+#include "render/exposure_groups.h"
 #include "render/frame_passes.h"
 #include "render/offscreen.h"
 #include "render/picture_layer.h"
@@ -102,11 +103,13 @@ class Painter::Impl {
         context_.make_current();
         if (out.width_px != width_px_ || out.height_px != height_px_)
             out = Image(width_px_, height_px_);
-        const std::vector<double> exposed =
-            mean_ && instants.size() == 1 ? exposure_at(t) : std::vector<double>{};
-        const bool blurred = exposed.size() > 1;
-        most_instants_ = std::max(most_instants_, exposed.size());
-        if (blurred) sum_exposure(exposed, t);
+        bool blurred = false;
+        if (mean_ && instants.size() == 1) {
+            const Blur blur = blur_at(t);
+            blurred = blur.count > 1;
+            most_instants_ = std::max(most_instants_, blur.count);
+            if (blurred) sum_exposure(blur, t);
+        }
         if (setup_.moving) {
             move_camera(t);
             if (!checked_) check_not_blank();
@@ -186,37 +189,60 @@ class Painter::Impl {
         passes_->draw_balls(bodies, *background_);
     }
 
-    std::vector<double> exposure_at(double t) const {
-        const Exposure exposure(scene_.film, motion_.duration, t);
-        double way = setup_.moving ? camera_way_px(setup_.camera, camera_motion(), exposure,
-                                                   width_px_, height_px_)
-                                   : 0;
+    /// What blurs in the picture at t, while the shutter is open.
+    struct Blur {
+        Exposure exposure;
+        std::vector<double> ways_px;  ///< of the balls, then of those of the second run
+        int count = 1;                ///< of instants, at most
+    };
+    Blur blur_at(double t) const {
+        Blur blur{Exposure(scene_.film, motion_.duration, t), {}};
         // Balls are seen from where the camera is at t.
         const View view(camera_at(setup_.camera, camera_motion(), t), width_px_, height_px_);
-        way += ball_way_px(scene_, motion_, exposure, view);
-        if (against_ != nullptr)
-            way = std::max(way, ball_way_px(against_->scene, against_->motion, exposure, view));
-        return exposure_instants(exposure, t, way);
+        std::vector<BallWay> ways = ball_ways_px(scene_, motion_, blur.exposure, view);
+        if (against_ != nullptr) {
+            const std::vector<BallWay> others =
+                ball_ways_px(against_->scene, against_->motion, blur.exposure, view);
+            ways.insert(ways.end(), others.begin(), others.end());
+        }
+        double longest = 0;
+        for (const BallWay& way : ways) longest = std::max(longest, way.seen);
+        for (const BallWay& way : ways) blur.ways_px.push_back(std::min(way.all, longest));
+        if (setup_.moving)
+            longest +=
+                camera_way_px(setup_.camera, camera_motion(), blur.exposure, width_px_, height_px_);
+        blur.count = exposure_count(longest);
+        return blur;
     }
 
     static_assert(kMostInstants <= PictureMean::kMost);
-    /// Sums the pictures of `instants` wherever they differ. Trails and the like are those of t.
-    void sum_exposure(const std::vector<double>& instants, double t) {
-        TileMask mask(width_px_, height_px_, ShadowTiles::kTilePx);
-        std::vector<Bodies> bodies;
+    /// Sums pictures wherever something moves. Trails and the like are those of t.
+    void sum_exposure(const Blur& blur, double t) {
+        mean_->clear();
         if (setup_.moving) {
+            TileMask mask(width_px_, height_px_, ShadowTiles::kTilePx);
             mask.add_all();
-        } else {
-            for (const double instant : instants) bodies.push_back(bodies_at({instant}));
-            for (const Bodies& now : bodies) passes_->mark(now, setup_.view, mask);
+            mean_->begin(mask.parts(), blur.count);
+            for (const double instant : exposure_instants(blur.exposure, blur.count)) {
+                move_camera(instant);
+                draw_picture(bodies_at({instant}), t, {{0, 0, width_px_, height_px_}});
+                mean_->add(gl_, passes_->frame());
+            }
+            return;
         }
-        mean_->begin(mask.parts(), static_cast<int>(instants.size()));
-        std::vector<TileMask::Bounds> changing;
-        for (const TileMask::Part& part : mean_->parts()) changing.push_back(part.bounds);
-        for (std::size_t i = 0; i < instants.size(); ++i) {
-            if (setup_.moving) move_camera(instants[i]);
-            draw_picture(setup_.moving ? bodies_at({instants[i]}) : bodies[i], t, changing);
-            mean_->add(gl_, passes_->frame());
+        TileOwners owners(width_px_, height_px_, ShadowTiles::kTilePx, blur.ways_px.size());
+        for (const double instant : exposure_instants(blur.exposure, blur.count))
+            passes_->mark(bodies_at({instant}), setup_.view, owners);
+        for (const ExposureGroup& group : sort_exposure(owners, blur.ways_px, blur.count)) {
+            std::vector<TileMask::Bounds> changing;
+            for (const TileMask::Part& part : group.parts) changing.push_back(part.bounds);
+            mean_->begin(group.parts, group.count);
+            for (const double instant : exposure_instants(blur.exposure, group.count)) {
+                Bodies bodies = bodies_at({instant});
+                draw_only(group, scene_.balls.size(), bodies);
+                draw_picture(bodies, t, changing);
+                mean_->add(gl_, passes_->frame());
+            }
         }
     }
 
@@ -288,7 +314,7 @@ class Painter::Impl {
     std::optional<StaticDrawing> drawing_;  ///< again and again, where the camera moves
     std::optional<FramePasses> passes_;
     std::optional<PictureMean> mean_;  ///< where there is a shutter
-    std::size_t most_instants_ = 0;    ///< of one picture
+    int most_instants_ = 1;            ///< of one picture
     double read_cpu_s_ = 0;
 };
 

@@ -25,33 +25,30 @@ PictureMean::PictureMean() {
 
 void PictureMean::begin(std::vector<TileMask::Part> parts, int count) {
     CAROM_CHECK(count, <=, kMost);
-    parts_ = std::move(parts);
-    count_ = count;
-    added_ = 0;
     std::size_t pixels = 0;
-    for (const TileMask::Part& part : parts_)
+    for (const TileMask::Part& part : parts)
         for (const TileMask::Bounds& tile : part.tiles)
             pixels += static_cast<std::size_t>(tile.width() * tile.height());
-    sums_.assign(4 * pixels, 0);
+    sums_.push_back({std::move(parts), count, 0, std::vector<std::uint32_t>(4 * pixels)});
 }
 
 void PictureMean::add(const Gl& gl, const GlFramebuffer& picture) {
-    CAROM_CHECK(added_, <, count_);
-    ++added_;
+    Sum& mean = sums_.back();
+    CAROM_CHECK(mean.added, <, mean.count);
+    ++mean.added;
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, picture.name());
-    std::uint32_t* sum = sums_.data();
-    for (const TileMask::Part& part : parts_) {
-        const int width = part.bounds.width();
-        read_.resize(4 * static_cast<std::size_t>(width) *
-                     static_cast<std::size_t>(part.bounds.height()));
-        gl.ReadPixels(part.bounds.left, part.bounds.top, width, part.bounds.height(), GL_BGRA,
-                      GL_UNSIGNED_BYTE, read_.data());
+    std::uint32_t* sum = mean.light.data();
+    for (const TileMask::Part& part : mean.parts) {
+        const TileMask::Bounds& all = part.bounds;
+        const auto width = static_cast<std::size_t>(all.width());
+        read_.resize(4 * width * static_cast<std::size_t>(all.height()));
+        gl.ReadPixels(all.left, all.top, all.width(), all.height(), GL_BGRA, GL_UNSIGNED_BYTE,
+                      read_.data());
         for (const TileMask::Bounds& tile : part.tiles) {
             for (int y = tile.top; y < tile.bottom; ++y) {
-                const std::uint8_t* from =
-                    &read_[4 * (static_cast<std::size_t>(y - part.bounds.top) *
-                                    static_cast<std::size_t>(width) +
-                                static_cast<std::size_t>(tile.left - part.bounds.left))];
+                const std::size_t first = static_cast<std::size_t>(y - all.top) * width +
+                                          static_cast<std::size_t>(tile.left - all.left);
+                const std::uint8_t* from = &read_[4 * first];
                 for (int x = tile.left; x < tile.right; ++x, from += 4, sum += 4) {
                     sum[0] += light_[from[0]];
                     sum[1] += light_[from[1]];
@@ -64,16 +61,18 @@ void PictureMean::add(const Gl& gl, const GlFramebuffer& picture) {
 }
 
 void PictureMean::write(Image& picture) const {
-    CAROM_CHECK(added_, ==, count_);
-    const double light = 1 / (kWhite * count_), opacity = 255 * light;
-    const std::uint32_t* sum = sums_.data();
-    for (const TileMask::Part& part : parts_) {
-        for (const TileMask::Bounds& tile : part.tiles) {
-            for (int y = tile.top; y < tile.bottom; ++y) {
-                std::uint8_t* to = picture.row(y) + std::ptrdiff_t{4} * tile.left;
-                for (int x = tile.left; x < tile.right; ++x, to += 4, sum += 4) {
-                    for (int c = 0; c < 3; ++c) to[c] = encode_(light * sum[c]);
-                    to[3] = static_cast<std::uint8_t>(std::lround(opacity * sum[3]));
+    for (const Sum& mean : sums_) {
+        CAROM_CHECK(mean.added, ==, mean.count);
+        const double light = 1 / (kWhite * mean.count), opacity = 255 * light;
+        const std::uint32_t* sum = mean.light.data();
+        for (const TileMask::Part& part : mean.parts) {
+            for (const TileMask::Bounds& tile : part.tiles) {
+                for (int y = tile.top; y < tile.bottom; ++y) {
+                    std::uint8_t* to = picture.row(y) + std::ptrdiff_t{4} * tile.left;
+                    for (int x = tile.left; x < tile.right; ++x, to += 4, sum += 4) {
+                        for (int c = 0; c < 3; ++c) to[c] = encode_(light * sum[c]);
+                        to[3] = static_cast<std::uint8_t>(std::lround(opacity * sum[3]));
+                    }
                 }
             }
         }

@@ -21,20 +21,24 @@ class PictureMean {
 
     PictureMean();
 
-    /// Begins a mean of `count` pictures, in the parts of a mask.
+    /// Forgets all parts.
+    void clear() { sums_.clear(); }
+    /// Begins the mean of `count` pictures in other parts of the picture than before.
     void begin(std::vector<TileMask::Part> parts, int count);
-    const std::vector<TileMask::Part>& parts() const { return parts_; }
-    /// Adds what is in a framebuffer.
+    /// Adds what is in a framebuffer to the mean that was begun last.
     void add(const Gl& gl, const GlFramebuffer& picture);
-    /// Writes the mean into its tiles of a picture, encoded as it has come.
+    /// Writes all means into their tiles of a picture, encoded as they have come.
     void write(Image& picture) const;
 
   private:
     std::array<std::uint32_t, 256> light_{}, opacity_{};  ///< of a code
     SrgbEncoder encode_;
-    std::vector<TileMask::Part> parts_;
-    int count_ = 1, added_ = 0;
-    std::vector<std::uint32_t> sums_;  ///< four a pixel, tile after tile
+    struct Sum {
+        std::vector<TileMask::Part> parts;
+        int count, added;
+        std::vector<std::uint32_t> light;  ///< four a pixel, tile after tile
+    };
+    std::vector<Sum> sums_;
     std::vector<std::uint8_t> read_;
 };
 

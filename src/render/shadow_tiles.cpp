@@ -140,6 +140,7 @@ void ShadowTiles::cast_on_body(const Body& body, const BallInView& ball) {
 void ShadowTiles::update(const std::vector<BallInView>& balls) {
     for (std::vector<int>& list : marked_) list.clear();
     for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (!balls[i].drawn) continue;
         caster_ = static_cast<int>(i);
         for (const Plane& plane : planes_) cast_on_plane(plane, balls[i]);
         for (const Body& body : bodies_) cast_on_body(body, balls[i]);
@@ -147,6 +148,7 @@ void ShadowTiles::update(const std::vector<BallInView>& balls) {
 
     tiles_.clear();
     casters_.clear();
+    caster_balls_.clear();
     for (int row = 0; row < grid_.rows(); ++row) {
         for (int column = 0; column < grid_.columns(); ++column) {
             const std::vector<int>& list = marked_[grid_.index(column, row)];
@@ -160,6 +162,7 @@ void ShadowTiles::update(const std::vector<BallInView>& balls) {
                 for (int axis = 0; axis < 3; ++axis)
                     casters_.push_back(static_cast<float>(ball.center[axis]));
                 casters_.push_back(static_cast<float>(ball.radius));
+                caster_balls_.push_back(ball.index);
             }
         }
     }

@@ -26,6 +26,8 @@ class ShadowTiles {
     const std::vector<float>& tiles() const { return tiles_; }
     /// Centre (view space) and radius of each caster, tile after tile.
     const std::vector<float>& casters() const { return casters_; }
+    /// The same casters as indices into Scene::balls.
+    const std::vector<int>& caster_balls() const { return caster_balls_; }
 
     void update(const std::vector<BallInView>& balls);
 
@@ -59,6 +61,7 @@ class ShadowTiles {
     int caster_ = -1;                       ///< being marked
     std::vector<std::vector<int>> marked_;  ///< per tile, casters in order
     std::vector<float> tiles_, casters_;
+    std::vector<int> caster_balls_;
 };
 
 }  // namespace carom

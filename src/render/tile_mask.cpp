@@ -1,7 +1,6 @@
 #include "render/tile_mask.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/check.h"
@@ -19,23 +18,10 @@ TileMask::TileMask(int width_px, int height_px, int tile_px)
 void TileMask::add_tile(int column, int row) {
     CAROM_CHECK(column, <, columns_);
     CAROM_CHECK(row, <, rows_);
-    const auto tile = static_cast<std::size_t>(row * columns_ + column);
-    if (!set_[tile]) ++count_;
-    set_[tile] = true;
+    set_[static_cast<std::size_t>(row * columns_ + column)] = true;
 }
 
-void TileMask::add_all() { add(0, 0, width_px_, height_px_); }
-
-void TileMask::add(double left_px, double top_px, double right_px, double bottom_px) {
-    const auto tile = [&](double px, int most) {
-        return static_cast<int>(std::clamp(std::floor(px / tile_px_), -1.0, double(most)));
-    };
-    const int first = std::max(0, tile(left_px, columns_));
-    const int last = std::min(columns_ - 1, tile(right_px, columns_));
-    const int bottom = std::min(rows_ - 1, tile(bottom_px, rows_));
-    for (int row = std::max(0, tile(top_px, rows_)); row <= bottom; ++row)
-        for (int column = first; column <= last; ++column) add_tile(column, row);
-}
+void TileMask::add_all() { set_.assign(set_.size(), true); }
 
 TileMask::Bounds TileMask::bounds_of(int column, int row) const {
     return {column * tile_px_, row * tile_px_, std::min(width_px_, (column + 1) * tile_px_),

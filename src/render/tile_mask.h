@@ -10,11 +10,7 @@ class TileMask {
     TileMask(int width_px, int height_px, int tile_px);
 
     void add_all();
-    /// Everything that a rectangle touches; may reach beyond the picture.
-    void add(double left_px, double top_px, double right_px, double bottom_px);
     void add_tile(int column, int row);
-
-    bool empty() const { return count_ == 0; }
 
     /// Pixels, half open.
     struct Bounds {
@@ -34,7 +30,6 @@ class TileMask {
     Bounds bounds_of(int column, int row) const;
 
     int width_px_, height_px_, tile_px_, columns_, rows_;
-    int count_ = 0;
     std::vector<bool> set_;
 };
 

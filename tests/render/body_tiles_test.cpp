@@ -218,7 +218,7 @@ TEST(StaticDrawing, EndsWhenItsTargetNeverComes) {
     std::promise<const StaticPicture*> target;
     std::future<double> drawn =
         std::async(std::launch::async, draw_aside, std::ref(contexts),
-                   StaticContents{view, lights, table, scale, false}, target.get_future());
+                   StaticContents{view, lights, table, scale, {}}, target.get_future(), nullptr);
     target = {};
     EXPECT_THROW(drawn.get(), std::future_error);
 }

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "hand_made_scene.h"
+#include "render/exposure_groups.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -62,12 +63,13 @@ TEST(Exposure, TakesAsManyInstantsAsPixelsOfWay) {
     Film film;
     film.shutter_deg = 180;
     const Exposure exposure(film, 10, 5);
-    EXPECT_EQ(std::vector<double>{5}, exposure_instants(exposure, 5, 0.2));
-    EXPECT_EQ(2u, exposure_instants(exposure, 5, 0.5).size());
-    const auto instants = exposure_instants(exposure, 5, 7.3);
+    EXPECT_EQ(1, exposure_count(0.2));
+    EXPECT_EQ(2, exposure_count(0.5));
+    EXPECT_EQ(8, exposure_count(7.3));
+    EXPECT_EQ(kMostInstants, exposure_count(1e6));
+    const auto instants = exposure_instants(exposure, 8);
     ASSERT_EQ(8u, instants.size());
     EXPECT_NEAR(5 - 7.0 / 16 / 120, instants.front(), 1e-12);  // the middle of the first eighth
-    EXPECT_EQ(static_cast<std::size_t>(kMostInstants), exposure_instants(exposure, 5, 1e6).size());
 }
 
 // A ball at 6 m/s, 1/48 s: the way in pixels is its speed, projected.
@@ -76,7 +78,9 @@ TEST(Exposure, WayIsMeasuredInThePicture) {
     const View view(*made.scene.camera, kWidth, kHeight);
     const Exposure exposure(made.scene.film, 10, 0.2);
     const double expected = 6.0 / 48 * view.pixels_per_metre(4);
-    const double way = ball_way_px(made.scene, made.motion, exposure, view);
+    const BallWay found = ball_ways_px(made.scene, made.motion, exposure, view).at(0);
+    const double way = found.seen;
+    EXPECT_EQ(way, found.all);
     fmt::print("way {:.3f} px, closed form {:.3f}\n", way, expected);
     EXPECT_NEAR(expected, way, 0.05 * expected);
 }
@@ -92,10 +96,80 @@ TEST(Exposure, SpinCountsWhereItShows) {
         made.scene.film.shutter_deg = 180;
         const View view(*made.scene.camera, kWidth, kHeight);
         const Exposure exposure(made.scene.film, 10, 1);
-        const double way = ball_way_px(made.scene, made.motion, exposure, view);
+        const double way = ball_ways_px(made.scene, made.motion, exposure, view).at(0).seen;
         const double equator = 50 * 0.2 / 48 * view.pixels_per_metre(4);
         EXPECT_NEAR(marked ? equator : 0, way, 1e-6);
     }
+}
+
+// Beside the picture nothing is seen of a ball, but its shadow may be.
+TEST(Exposure, WayBesideThePictureIsToldApart) {
+    const HandMadeScene made = flying_ball(180, {60, 0, 0});
+    const View view(*made.scene.camera, kWidth, kHeight);
+    const BallWay way =
+        ball_ways_px(made.scene, made.motion, Exposure(made.scene.film, 10, 5), view).at(0);
+    EXPECT_EQ(0, way.seen);
+    EXPECT_NEAR(60.0 / 48 * view.pixels_per_metre(4), way.all, 0.05 * way.all);
+}
+
+TEST(ExposureGroups, BodiesThatShareTilesBlurTogether) {
+    TileOwners owners(320, 160, 16, 5);
+    owners.add(0, 0, 0, 40, 20);
+    owners.add(1, 100, 0, 140, 20);
+    owners.add(2, 30, 10, 60, 40);  // touches a tile of body 0
+    owners.add(3, 200, 100, 400, 300);
+    owners.add(4, 60, 100, 70, 110);
+    EXPECT_EQ(owners.group(0), owners.group(2));
+    EXPECT_NE(owners.group(0), owners.group(1));
+
+    const auto groups = sort_exposure(owners, {3.0, 0.1, 30.0, 7.5, 29.0}, 30);
+    ASSERT_EQ(2u, groups.size());
+    EXPECT_EQ(30, groups[0].count);
+    EXPECT_EQ((std::vector<bool>{true, false, true, false, true}), groups[0].bodies);
+    EXPECT_EQ(2u, groups[0].parts.size()) << "two that do not touch";
+    EXPECT_EQ(8, groups[1].count) << "30, 15, 8: as few as 8 are enough for 7.5 px";
+    EXPECT_EQ((std::vector<bool>{false, false, false, true, false}), groups[1].bodies);
+    const TileMask::Bounds& seen = groups[1].parts.at(0).bounds;
+    EXPECT_EQ(192, seen.left);
+    EXPECT_EQ(320, seen.right);
+    EXPECT_EQ(96, seen.top);
+    EXPECT_EQ(160, seen.bottom);
+    EXPECT_EQ(8u * 4u, groups[1].parts[0].tiles.size());
+}
+
+// A slow ball is drawn less often than a fast one beside it, and both as if they were alone; a ball
+// that stands is sharp, and where a fast one passes it, it hides it at each instant.
+TEST(MotionBlur, EachBallHasTheInstantsThatItNeeds) {
+    const double t = 0.2;
+    const Vec3 fast(4, 0, 0), slow(0, 0, 0.5), still = Vec3::Zero();
+    const auto picture = [&](const std::vector<std::pair<Vec3, Vec3>>& balls, double shutter_deg) {
+        HandMadeScene made;
+        made.camera({0, -4, 0}, {0, 0, 0});
+        made.scene.film.fps = {24, 1};
+        made.scene.film.shutter_deg = shutter_deg;
+        for (const auto& [place, velocity] : balls)
+            made.ball(place - t * velocity, 0.2, 0, Vec3::Zero(), velocity);
+        return made.paint(kWidth, kHeight, t);
+    };
+    const std::pair<Vec3, Vec3> left{{-0.9, 0, 0.4}, fast}, right{{0.9, 0, -0.4}, slow};
+    const Image one = picture({left}, 180), other = picture({right}, 180);
+    const Image both = picture({left, right}, 180);
+    for (int y = 0; y < kHeight; ++y) {
+        EXPECT_TRUE(std::equal(one.row(y), one.row(y) + 2 * kWidth, both.row(y))) << y;
+        EXPECT_TRUE(std::equal(other.row(y) + 2 * kWidth, other.row(y) + 4 * kWidth,
+                               both.row(y) + 2 * kWidth))
+            << y;
+    }
+    // Before the fast ball stands another one.
+    const std::pair<Vec3, Vec3> before{{-0.7, -1, 0.3}, still};
+    const Image hidden = picture({left, before}, 180), sharp = picture({before}, 0);
+    int same = 0, moved = 0;
+    for (std::size_t i = 0; i < hidden.bgra.size(); ++i) {
+        same += hidden.bgra[i] == sharp.bgra[i] ? 1 : 0;
+        moved += std::abs(hidden.bgra[i] - one.bgra[i]) > 20 ? 1 : 0;
+    }
+    EXPECT_GT(same, 4 * kWidth * kHeight * 8 / 10);
+    EXPECT_GT(moved, 1000);
 }
 
 TEST(MotionBlur, IsTheMeanOfItsInstantsInLinearLight) {
@@ -104,8 +178,8 @@ TEST(MotionBlur, IsTheMeanOfItsInstantsInLinearLight) {
     const Image picture = blurred.paint(kWidth, kHeight, t);
     const View view(*blurred.scene.camera, kWidth, kHeight);
     const Exposure exposure(blurred.scene.film, 10, t);
-    const auto instants =
-        exposure_instants(exposure, t, ball_way_px(blurred.scene, blurred.motion, exposure, view));
+    const BallWay way = ball_ways_px(blurred.scene, blurred.motion, exposure, view).at(0);
+    const auto instants = exposure_instants(exposure, exposure_count(way.seen));
     ASSERT_GT(instants.size(), 4u);
 
     Painter painter(sharp.scene, sharp.motion, {kWidth, kHeight});

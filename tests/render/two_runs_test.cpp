@@ -120,6 +120,47 @@ TEST(Ghost, WhereBothRunsAgreeOnlyTheSolidBallIsSeen) {
     EXPECT_EQ(0, differing(painted(made, nullptr), painted(made, &same)));
 }
 
+// For one picture two threads compile, and balls and ghosts are drawn in whichever context has
+// their program; whoever comes first, the picture is that of one thread.
+TEST(TwoRuns, APictureOfTwoThreadsIsThatOfOne) {
+    const auto made = [](double shift, bool mirror) {
+        HandMadeScene scene;
+        scene.camera({0, -5, 1}, {0, 0, 0.4});
+        const int floor = scene.look(LookStyle::kPlain, {0.7, 0.7, 0.7});
+        if (mirror) scene.scene.looks[static_cast<std::size_t>(floor)].reflection = 0.6;
+        scene.surface(PlaneShape{}, floor);
+        scene.surface(BoxShape{Vec3(0, -0.8, 0.1), Vec3(2, 0.1, 0.2), Quat::Identity()}, floor);
+        const int look = scene.look(LookStyle::kBasketball, kRed);
+        scene.ball({-0.6 + shift, 0, 0.4}, 0.3, look, {0, 3, 0}, {1, 0, 0.3});
+        scene.ball({0.7, 0.5 * shift, 0.3}, 0.2, look);
+        scene.scene.overlay.trail = TrailOptions{};
+        return scene;
+    };
+    for (const bool mirror : {false, true}) {
+        for (const double shutter_deg : {0.0, 180.0}) {
+            HandMadeScene first = made(0, mirror);
+            first.scene.film.shutter_deg = shutter_deg;
+            const SecondRun second = second_of(made(0.25, mirror));
+            const auto picture = [&](bool few_pictures) {
+                PainterOptions options{kWidth, kHeight, &second};
+                options.few_pictures = few_pictures;
+                Painter painter(first.scene, first.motion, options);
+                Image image;
+                painter.paint(0.5, image);
+                Image again;
+                painter.paint(0.5, again);
+                EXPECT_EQ(image, again);
+                return image;
+            };
+            const Image one = picture(false);
+            for (int i = 0; i < 4; ++i) {
+                const ImageDifference d = compare_images(one, picture(true));
+                EXPECT_LE(d.largest, 1) << "mirror " << mirror << ", shutter " << shutter_deg;
+            }
+        }
+    }
+}
+
 TEST(Ghost, ASolidBallHidesWhatLiesBehindIt) {
     const HandMadeScene solid = one_ball({0, 0, 0}, 0.5);
     const Image alone = painted(solid, nullptr);
