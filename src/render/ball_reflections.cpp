@@ -35,11 +35,10 @@ std::vector<BallInView> BallReflections::images(const std::vector<BallInView>& b
     return all;
 }
 
-std::vector<BallReflections::Part> BallReflections::parts_of(
-    const std::vector<BallInView>& images) const {
+std::vector<PixelRect> BallReflections::parts_of(const std::vector<BallInView>& images) const {
     constexpr std::size_t kMostParts = 32;  // where many are, they lie together
-    const Part whole{0, 0, view_.width_px(), view_.height_px()};
-    std::vector<Part> parts;
+    const PixelRect whole{0, 0, view_.width_px(), view_.height_px()};
+    std::vector<PixelRect> parts;
     for (const BallInView& image : images) {
         if (!may_be_seen(image, view_)) continue;
         const Outline outline = project_sphere(image.center, image.radius, view_);
@@ -49,40 +48,26 @@ std::vector<BallReflections::Part> BallReflections::parts_of(
         const auto px = [](double at, int size) {
             return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
         };
-        Part part{px(outline.center.x() - x, whole.right), px(outline.center.y() - y, whole.bottom),
-                  px(outline.center.x() + x + 1, whole.right),
-                  px(outline.center.y() + y + 1, whole.bottom)};
-        // Joined with all that it overlaps, also those that it only then overlaps.
-        for (std::size_t i = 0; i < parts.size();) {
-            const Part& other = parts[i];
-            const bool apart = part.left >= other.right || other.left >= part.right ||
-                               part.top >= other.bottom || other.top >= part.bottom;
-            if (apart && parts.size() < kMostParts) {
-                ++i;
-                continue;
-            }
-            part = {std::min(part.left, other.left), std::min(part.top, other.top),
-                    std::max(part.right, other.right), std::max(part.bottom, other.bottom)};
-            parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(i));
-            i = 0;
-        }
-        if (part.left < part.right && part.top < part.bottom) parts.push_back(part);
+        parts.push_back({px(outline.center.x() - x, whole.right),
+                         px(outline.center.y() - y, whole.bottom),
+                         px(outline.center.x() + x + 1, whole.right),
+                         px(outline.center.y() + y + 1, whole.bottom)});
     }
-    return parts;
+    return apart(parts, kMostParts);
 }
 
 void BallReflections::draw(const std::vector<BallInView>& balls, const StaticPicture& background,
                            const GlFramebuffer& frame, const GlTexture& color) {
     for (const Mirror& mirror : mirrors_) {
         const std::vector<BallInView> images = mirror_images(balls, mirror, view_);
-        const std::vector<Part> parts = parts_of(images);
+        const std::vector<PixelRect> parts = parts_of(images);
         if (parts.empty()) continue;
         gl_->BindFramebuffer(GL_FRAMEBUFFER, layer_framebuffer_.name());
         gl_->ClearColor(0, 0, 0, 0);
         gl_->Clear(GL_COLOR_BUFFER_BIT);
         balls_.set_mirror(mirror.normal, mirror.offset, lights_);
         balls_.draw(images, background);
-        for (const Part& part : parts) blend(mirror, part, background, frame, color);
+        for (const PixelRect& part : parts) blend(mirror, part, background, frame, color);
         gl_->BindFramebuffer(GL_FRAMEBUFFER, frame.name());
     }
 }
@@ -95,13 +80,14 @@ void BallReflections::compile(const StaticPicture& background, const GlFramebuff
     gl_->BindFramebuffer(GL_FRAMEBUFFER, frame.name());
 }
 
-void BallReflections::blend(const Mirror& mirror, const Part& part, const StaticPicture& background,
-                            const GlFramebuffer& frame, const GlTexture& color) {
+void BallReflections::blend(const Mirror& mirror, const PixelRect& part,
+                            const StaticPicture& background, const GlFramebuffer& frame,
+                            const GlTexture& color) {
     MirrorPart& read = read_;
     read.left_px = part.left;
     read.top_px = part.top;
-    read.width_px = part.right - part.left;
-    read.height_px = part.bottom - part.top;
+    read.width_px = part.width();
+    read.height_px = part.height();
     const std::size_t values =
         4 * static_cast<std::size_t>(read.width_px) * static_cast<std::size_t>(read.height_px);
     const auto fetch = [&](const GlFramebuffer& from, GLenum format, GLenum type, auto& to) {

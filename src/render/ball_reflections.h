@@ -7,6 +7,7 @@
 #include "render/mirror_blend.h"
 #include "render/mirrors.h"
 #include "render/picture_scale.h"
+#include "render/pixel_rect.h"
 #include "render/static_picture.h"
 
 namespace carom {
@@ -36,12 +37,9 @@ class BallReflections {
     std::vector<BallInView> images(const std::vector<BallInView>& balls) const;
 
   private:
-    struct Part {
-        int left, top, right, bottom;  ///< px, half open
-    };
     /// Where the images are, in parts that do not overlap.
-    std::vector<Part> parts_of(const std::vector<BallInView>& images) const;
-    void blend(const Mirror& mirror, const Part& part, const StaticPicture& background,
+    std::vector<PixelRect> parts_of(const std::vector<BallInView>& images) const;
+    void blend(const Mirror& mirror, const PixelRect& part, const StaticPicture& background,
                const GlFramebuffer& frame, const GlTexture& color);
 
     const Gl* gl_;

@@ -87,10 +87,6 @@ void FramePasses::prepare(const StaticPicture& background) {
     const Scene& scene = contents_.scene;
     const View& view = setup_.view;
     const Lights& lights = setup_.lights;
-    // A picture without blur has its layer laid over it once.
-    if (setup_.overlay.has_moving_under_layer() &&
-        !(contents_.few_pictures && scene.film.shutter_deg == 0))
-        layer_.emplace(gl_, view.width_px(), view.height_px());
     const bool on_surfaces = setup_.moving ? !scene.surfaces.empty() : setup_.surfaces.count() > 0;
     if (on_surfaces && !scene.balls.empty()) shadows_.emplace(gl_, scene, view, lights);
     if (around_.mirrored) reflections_.emplace(gl_, scene, view, lights, setup_.scale, around_);
@@ -99,10 +95,8 @@ void FramePasses::prepare(const StaticPicture& background) {
         draw_nothing(gl_);
         // llvmpipe compiles again where a program before has bound a texture in a buffer's place:
         // in the order of a frame, from what one leaves behind.
-        if (layer_) layer_->compile();
         if (shadows_) shadows_->compile(background);
         if (reflections_) reflections_->compile(background, frame_);
-        if (layer_) layer_->compile();
     }
     while (Shared* shared = take_first()) prepare(*shared, gl_, background);
 }

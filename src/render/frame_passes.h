@@ -12,13 +12,12 @@
 #include "render/ball_shadows.h"
 #include "render/bodies_in_view.h"
 #include "render/offscreen.h"
-#include "render/picture_layer.h"
 #include "render/picture_setup.h"
 #include "render/static_picture.h"
 
 namespace carom {
 
-/// Shadows, mirror images, a layer, balls, ghosts: those that the scene has.
+/// Shadows, mirror images, balls, ghosts: those that the scene has.
 ///
 /// Programs take longer to compile than one picture to draw, and belong to the context that
 /// compiles them. So balls and ghosts may be drawn in the contexts' other one, where another thread
@@ -49,7 +48,7 @@ class FramePasses {
     void set_view(const View& view, const Lights& lights, const PictureScale& scale);
     void see_in_tiles(const View& view, const Lights& lights, std::vector<TileBound> seen);
 
-    /// What lies below the layer, and what lies over it.
+    /// What lies below the balls, and they; between the two a layer may be laid over the frame.
     void draw_below(const Bodies& bodies, const StaticPicture& background);
     void draw_balls(const Bodies& bodies, const StaticPicture& background);
 
@@ -59,9 +58,6 @@ class FramePasses {
 
     /// For draw_below() and all that the main context draws.
     const GlFramebuffer& frame() const { return frame_; }
-    /// Of what moves below the balls, such as trails; null where nothing does, and where it is not
-    /// worth a program: see lay_over_once().
-    PictureLayer* layer() { return layer_ ? &*layer_ : nullptr; }
     bool has_shadows() const { return shadows_.has_value(); }
     bool has_reflections() const { return reflections_.has_value(); }
     bool has_ghosts() const { return contents_.against != nullptr; }
@@ -84,7 +80,6 @@ class FramePasses {
     const GlTexture& color_;
     BallSurroundings around_;
     GlFramebuffer frame_, frame_aside_;
-    std::optional<PictureLayer> layer_;
     std::optional<BallShadows> shadows_;
     std::optional<BallReflections> reflections_;
     Shared balls_, ghosts_;

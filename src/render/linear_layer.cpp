@@ -5,13 +5,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "render/lights.h"
 #include "render/srgb.h"
 
 namespace carom {
 
-LayerBounds filled_part(const Image& layer) {
-    LayerBounds part{layer.width_px, layer.height_px, 0, 0};
+PixelRect filled_part(const Image& layer) {
+    PixelRect part{layer.width_px, layer.height_px, 0, 0};
     for (int y = 0; y < layer.height_px; ++y) {
         const std::uint8_t* pixels = layer.row(y);
         for (int x = 0; x < layer.width_px; ++x) {
@@ -36,7 +35,7 @@ void lay_over_in_linear_light(const Image& layer, int left, int top, Image& targ
             const double opacity = from[3] / 255.0;
             for (int c = 0; c < 3; ++c) {
                 const double own = std::min(1.0, from[c] / static_cast<double>(from[3]));
-                to[c] = encoded(linear_from_srgb(own) * opacity + decoded[to[c]] * (1 - opacity));
+                to[c] = encoded(srgb_decoded(own) * opacity + decoded[to[c]] * (1 - opacity));
             }
             to[3] = static_cast<std::uint8_t>(std::lround(from[3] + to[3] * (1 - opacity)));
         }

@@ -18,6 +18,7 @@
 #include "render/exposure.h"
 #include "render/exposure_groups.h"
 #include "render/frame_passes.h"
+#include "render/linear_layer.h"
 #include "render/offscreen.h"
 #include "render/picture_layer.h"
 #include "render/picture_mean.h"
@@ -182,10 +183,10 @@ class Painter::Impl {
     }
 
     /// Everything below the text, at the view as it is; of the background, what `parts` cover.
-    void draw_picture(const Bodies& bodies, double t, const std::vector<TileMask::Bounds>& parts) {
+    void draw_picture(const Bodies& bodies, double t, const std::vector<PixelRect>& parts) {
         copy_background(parts);
         passes_->draw_below(bodies, *background_);
-        if (setup_.overlay.has_moving_under_layer()) draw_moving_layer(t);
+        if (setup_.overlay.has_moving_under_layer()) draw_moving_layer(t, parts);
         passes_->draw_balls(bodies, *background_);
     }
 
@@ -234,8 +235,9 @@ class Painter::Impl {
         for (const double instant : exposure_instants(blur.exposure, blur.count))
             passes_->mark(bodies_at({instant}), setup_.view, owners);
         for (const ExposureGroup& group : sort_exposure(owners, blur.ways_px, blur.count)) {
-            std::vector<TileMask::Bounds> changing;
+            std::vector<PixelRect> changing;
             for (const TileMask::Part& part : group.parts) changing.push_back(part.bounds);
+            changing = apart(changing);
             mean_->begin(group.parts, group.count);
             for (const double instant : exposure_instants(blur.exposure, group.count)) {
                 Bodies bodies = bodies_at({instant});
@@ -251,25 +253,24 @@ class Painter::Impl {
         if (layer.width_px != 0) background_->lay_over(layer);
     }
 
-    void draw_moving_layer(double t) {
-        OverlayPainter::Rect changed = setup_.overlay.update_moving_under_layer(t);
-        PictureLayer* layer = passes_->layer();
-        if (layer == nullptr) {
-            lay_over_once(gl_, setup_.overlay.moving_under_layer(), passes_->frame(), color_);
-            return;
-        }
-        if (setup_.moving)
-            changed = {0, 0, width_px_, height_px_};  // the one before saw another view
-        if (!changed.empty())
-            layer->update(setup_.overlay.moving_under_layer(), changed.x, changed.y, changed.width,
-                          changed.height);
-        layer->draw();
+    void draw_moving_layer(double t, const std::vector<PixelRect>& parts) {
+        const OverlayPainter::Rect changed = setup_.overlay.update_moving_under_layer(t);
+        const Image& layer = setup_.overlay.moving_under_layer();
+        const PixelRect whole{0, 0, width_px_, height_px_};
+        layer_part_ = setup_.moving
+                          ? filled_part(layer)
+                          : layer_part_.joined(whole.common(
+                                {changed.x, changed.y, changed.right(), changed.bottom()}));
+        for (const PixelRect& part : parts)
+            lay_over(gl_, layer, layer_part_.common(part), passes_->frame(), color_);
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
     }
 
-    void copy_background(const std::vector<TileMask::Bounds>& parts) {
+    /// The parts must not overlap.
+    void copy_background(const std::vector<PixelRect>& parts) {
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, background_->color_framebuffer().name());
         gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, passes_->frame().name());
-        for (const TileMask::Bounds& part : parts)
+        for (const PixelRect& part : parts)
             gl_.BlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top,
                                 part.right, part.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
@@ -313,6 +314,7 @@ class Painter::Impl {
     std::optional<StaticPicture> background_;
     std::optional<StaticDrawing> drawing_;  ///< again and again, where the camera moves
     std::optional<FramePasses> passes_;
+    PixelRect layer_part_;             ///< that what moves below the balls has ever filled
     std::optional<PictureMean> mean_;  ///< where there is a shutter
     int most_instants_ = 1;            ///< of one picture
     double read_cpu_s_ = 0;

@@ -27,7 +27,7 @@ void PictureMean::begin(std::vector<TileMask::Part> parts, int count) {
     CAROM_CHECK(count, <=, kMost);
     std::size_t pixels = 0;
     for (const TileMask::Part& part : parts)
-        for (const TileMask::Bounds& tile : part.tiles)
+        for (const PixelRect& tile : part.tiles)
             pixels += static_cast<std::size_t>(tile.width() * tile.height());
     sums_.push_back({std::move(parts), count, 0, std::vector<std::uint32_t>(4 * pixels)});
 }
@@ -39,12 +39,12 @@ void PictureMean::add(const Gl& gl, const GlFramebuffer& picture) {
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, picture.name());
     std::uint32_t* sum = mean.light.data();
     for (const TileMask::Part& part : mean.parts) {
-        const TileMask::Bounds& all = part.bounds;
+        const PixelRect& all = part.bounds;
         const auto width = static_cast<std::size_t>(all.width());
         read_.resize(4 * width * static_cast<std::size_t>(all.height()));
         gl.ReadPixels(all.left, all.top, all.width(), all.height(), GL_BGRA, GL_UNSIGNED_BYTE,
                       read_.data());
-        for (const TileMask::Bounds& tile : part.tiles) {
+        for (const PixelRect& tile : part.tiles) {
             for (int y = tile.top; y < tile.bottom; ++y) {
                 const std::size_t first = static_cast<std::size_t>(y - all.top) * width +
                                           static_cast<std::size_t>(tile.left - all.left);
@@ -66,7 +66,7 @@ void PictureMean::write(Image& picture) const {
         const double light = 1 / (kWhite * mean.count), opacity = 255 * light;
         const std::uint32_t* sum = mean.light.data();
         for (const TileMask::Part& part : mean.parts) {
-            for (const TileMask::Bounds& tile : part.tiles) {
+            for (const PixelRect& tile : part.tiles) {
                 for (int y = tile.top; y < tile.bottom; ++y) {
                     std::uint8_t* to = picture.row(y) + std::ptrdiff_t{4} * tile.left;
                     for (int x = tile.left; x < tile.right; ++x, to += 4, sum += 4) {

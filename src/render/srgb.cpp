@@ -1,5 +1,7 @@
 #include "render/srgb.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "render/lights.h"
@@ -14,6 +16,13 @@ const std::array<double, 256>& srgb_decoding() {
         return linear;
     }();
     return table;
+}
+
+double srgb_decoded(double encoded) {
+    const std::array<double, 256>& table = srgb_decoding();
+    const double place = std::clamp(encoded, 0.0, 1.0) * 255;
+    const std::size_t code = std::min<std::size_t>(static_cast<std::size_t>(place), 254);
+    return std::lerp(table[code], table[code + 1], place - static_cast<double>(code));
 }
 
 SrgbEncoder::SrgbEncoder() {

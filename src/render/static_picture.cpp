@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "render/linear_layer.h"
 #include "render/picture_layer.h"
 
 namespace carom {
@@ -37,7 +38,7 @@ std::vector<const GlTexture*> StaticPicture::targets() const {
 }
 
 void StaticPicture::lay_over(const Image& layer) {
-    lay_over_once(*gl_, layer, color_framebuffer_, color_);
+    carom::lay_over(*gl_, layer, filled_part(layer), color_framebuffer_, color_);
 }
 
 std::vector<TileBound> StaticPicture::tile_bounds(const View& view, int tile_px) const {

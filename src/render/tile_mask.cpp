@@ -23,7 +23,7 @@ void TileMask::add_tile(int column, int row) {
 
 void TileMask::add_all() { set_.assign(set_.size(), true); }
 
-TileMask::Bounds TileMask::bounds_of(int column, int row) const {
+PixelRect TileMask::bounds_of(int column, int row) const {
     return {column * tile_px_, row * tile_px_, std::min(width_px_, (column + 1) * tile_px_),
             std::min(height_px_, (row + 1) * tile_px_)};
 }
@@ -42,15 +42,13 @@ std::vector<TileMask::Part> TileMask::parts() const {
     for (int start = 0; start < columns_ * rows_; ++start) {
         reach(start % columns_, start / columns_);
         if (next.empty()) continue;
-        Part& part = parts.emplace_back(Part{{width_px_, height_px_, 0, 0}, {}});
+        Part& part = parts.emplace_back();
         while (!next.empty()) {
             const auto [column, row] = next.back();
             next.pop_back();
-            const Bounds tile = bounds_of(column, row);
+            const PixelRect tile = bounds_of(column, row);
             part.tiles.push_back(tile);
-            part.bounds = {
-                std::min(part.bounds.left, tile.left), std::min(part.bounds.top, tile.top),
-                std::max(part.bounds.right, tile.right), std::max(part.bounds.bottom, tile.bottom)};
+            part.bounds = part.bounds.joined(tile);
             reach(column - 1, row);
             reach(column + 1, row);
             reach(column, row - 1);

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "render/pixel_rect.h"
+
 namespace carom {
 
 class TileMask {
@@ -12,22 +14,16 @@ class TileMask {
     void add_all();
     void add_tile(int column, int row);
 
-    /// Pixels, half open.
-    struct Bounds {
-        int left = 0, top = 0, right = 0, bottom = 0;
-        int width() const { return right - left; }
-        int height() const { return bottom - top; }
-    };
     /// Tiles that hang together.
     struct Part {
-        Bounds bounds;              ///< of all of them, within the picture
-        std::vector<Bounds> tiles;  ///< within the picture
+        PixelRect bounds;              ///< of all of them, within the picture
+        std::vector<PixelRect> tiles;  ///< within the picture
     };
     /// All tiles, each in one part; bounds of parts may overlap.
     std::vector<Part> parts() const;
 
   private:
-    Bounds bounds_of(int column, int row) const;
+    PixelRect bounds_of(int column, int row) const;
 
     int width_px_, height_px_, tile_px_, columns_, rows_;
     std::vector<bool> set_;

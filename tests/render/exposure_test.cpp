@@ -129,7 +129,7 @@ TEST(ExposureGroups, BodiesThatShareTilesBlurTogether) {
     EXPECT_EQ(2u, groups[0].parts.size()) << "two that do not touch";
     EXPECT_EQ(8, groups[1].count) << "30, 15, 8: as few as 8 are enough for 7.5 px";
     EXPECT_EQ((std::vector<bool>{false, false, false, true, false}), groups[1].bodies);
-    const TileMask::Bounds& seen = groups[1].parts.at(0).bounds;
+    const PixelRect& seen = groups[1].parts.at(0).bounds;
     EXPECT_EQ(192, seen.left);
     EXPECT_EQ(320, seen.right);
     EXPECT_EQ(96, seen.top);
