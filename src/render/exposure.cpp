@@ -35,8 +35,9 @@ double Exposure::at(double part) const {
 
 int exposure_count(double way_px) {
     if (!(way_px > kLeastBlurPx)) return 1;
-    const double wanted = std::ceil(way_px / kExposureStepPx);
-    return static_cast<int>(std::clamp(wanted, 2.0, double{kMostInstants}));
+    const double fine = std::min(std::ceil(way_px / kFineStepPx), kFineInstants);
+    const double wanted = std::max(std::ceil(way_px / kExposureStepPx), fine);
+    return static_cast<int>(std::clamp(wanted, kFewestInstants, double{kMostInstants}));
 }
 
 std::vector<double> exposure_instants(const Exposure& exposure, int count) {

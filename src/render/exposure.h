@@ -14,6 +14,8 @@ namespace carom {
 /// without steps; a ball that is faster leaves steps of 1/128 of the contrast.
 inline constexpr int kMostInstants = 128;
 inline constexpr double kExposureStepPx = 1.0;
+/// A short way has finer steps, up to that many: few instants leave more of each in the mean.
+inline constexpr double kFineStepPx = 0.5, kFewestInstants = 4, kFineInstants = 16;
 /// Less way than this needs no blur.
 inline constexpr double kLeastBlurPx = 0.25;
 

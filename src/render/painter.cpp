@@ -286,10 +286,11 @@ class Painter::Impl {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
         gl_.ClearColor(kMark, kMark, kMark, transparent_ ? kMark : 0.0F);
         gl_.Clear(GL_COLOR_BUFFER_BIT);
-        copy_background({{0, 0, width_px_, height_px_}});
+        const int x = width_px_ / 2, y = height_px_ / 2;
+        copy_background({{x, y, x + 1, y + 1}});
         std::uint8_t pixel[4] = {};
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, passes_->frame().name());
-        gl_.ReadPixels(width_px_ / 2, height_px_ / 2, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
+        gl_.ReadPixels(x, y, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
         if (transparent_ ? pixel[3] == kMarkByte : pixel[3] != 255)
             throw Failure(FailureKind::kRun,
                           "the driver draws blank pictures and reports no error (" +
