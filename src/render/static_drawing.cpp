@@ -13,6 +13,10 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
     if (table.boxes > 0) defines.push_back("BOXES");
     if (table.spheres > 0) defines.push_back("SPHERES");
     if (table.capsules > 0) defines.push_back("CAPSULES");
+    if (table.checker) defines.push_back("CHECKER");
+    if (table.grid) defines.push_back("GRID");
+    if (table.checker || table.grid || table.wood || table.court)
+        defines.push_back("PATTERNED");
     if (table.wood) defines.push_back("WOOD");
     if (table.court) defines.push_back("COURT");
     if (kind.occludes) defines.push_back("FRONT");

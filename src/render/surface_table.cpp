@@ -91,6 +91,8 @@ int append(const Scene& scene, SurfaceTable& table, const Make& make) {
         table.reflection |= kFlat && look.reflection > 0;
         if (!make(*shape, look, record)) continue;
         put_look(record, look);
+        table.checker |= look.style == LookStyle::kChecker;
+        table.grid |= look.style == LookStyle::kGrid;
         table.wood |= look.style == LookStyle::kWood;
         table.court |= look.style == LookStyle::kCourt;
         table.vec4s.insert(table.vec4s.end(), record.begin(), record.end());

@@ -28,7 +28,8 @@ struct SurfaceTable {
     int boxes = 0;
     int spheres = 0;
     int capsules = 0;
-    bool wood = false, court = false, reflection = false;  ///< some surface has it
+    /// Some surface has it.
+    bool checker = false, grid = false, wood = false, court = false, reflection = false;
     /// One vec4 of a record.
     Eigen::Vector4d at(int record, int slot) const {
         const auto first = static_cast<std::size_t>(4 * (kSurfaceVec4s * record + slot));

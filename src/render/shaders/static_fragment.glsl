@@ -15,7 +15,7 @@ out uvec4 out_facts;  // depth of the nearer layer, of the farther one; fraction
 vec3 albedo(Hit hit, vec3 d, float part) {
     vec4 first = surface(hit.item, 4);
     vec3 color = first.rgb;
-#if defined(PLANES) || defined(BOXES)
+#ifdef PATTERNED  // planes and boxes alone
     bool is_plane = hit.item < u_counts.x;
     int slot_u = 6, slot_v = 7;
 #ifdef BOXES

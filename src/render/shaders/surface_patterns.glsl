@@ -1,22 +1,28 @@
-// What is painted on planes and boxes. WOOD and COURT are defined where the scene has such.
+// What is painted on planes and boxes. CHECKER, GRID, WOOD and COURT are defined where the scene has
+// such, and PATTERNED with any of them.
 //
 // Every pattern is filtered over the pixel: uv is the point [m], extent how far it reaches across a
 // pixel along both axes. What is finer than a pixel melts into its mean.
 
 const float kCheckerStyle = 1.0, kGridStyle = 2.0, kWoodStyle = 3.0, kCourtStyle = 4.0;
 
+#ifdef CHECKER
 // Integral of a checker of period 2 over a box of width w around x, -1 ... 1.
 float filtered_wave(float x, float w) {
     vec2 ends = fract(vec2(x - 0.5 * w, x + 0.5 * w) * 0.5) - 0.5;
     return 2.0 * (abs(ends.x) - abs(ends.y)) / w;
 }
 
+#endif
+
+#if defined(GRID) || defined(WOOD) || defined(COURT)
 // Part of a box of width w around x that lies on lines of the given width around the integers.
 float filtered_lines(float x, float w, float line) {
     vec2 ends = vec2(x - 0.5 * w, x + 0.5 * w) + 0.5 * line;
     vec2 covered = floor(ends) * line + min(fract(ends), line);
     return (covered.y - covered.x) / w;
 }
+#endif
 
 #if defined(WOOD) || defined(COURT)
 // The same for all drivers: 0 ... 1 from two whole numbers.
@@ -115,6 +121,7 @@ float court_lines(vec2 p, mat2 step) {
 }
 #endif
 
+#ifdef PATTERNED
 // The colour of a surface, whose record's slots 4 and 5 are `first` and `second`, at the pattern
 // coordinate uv [m]; the columns of `step` are how uv moves from
 // pixel to pixel along x and y.
@@ -130,19 +137,29 @@ vec3 pattern(vec4 first, vec4 second, vec2 uv, mat2 step) {
         return mix(strips, second.rgb, court_lines(uv, step));
     }
 #endif
+#if defined(CHECKER) || defined(GRID)
     // Beyond a few squares a pixel, a box filter still leaves moire: melt into the mean.
     float melt = smoothstep(0.6, 2.0, max(w.x, w.y));
     float part = 0.0;
+#ifdef CHECKER
     if (first.w == kCheckerStyle) {
         part = 0.5 - 0.5 * filtered_wave(x.x, w.x) * filtered_wave(x.y, w.y);
         part = mix(part, 0.5, melt);
-    } else if (first.w == kGridStyle) {
+    }
+#endif
+#ifdef GRID
+    if (first.w == kGridStyle) {
         const float kLine = 0.024;
         float off = (1.0 - filtered_lines(x.x, w.x, kLine)) * (1.0 - filtered_lines(x.y, w.y, kLine));
         part = mix(1.0 - off, 1.0 - (1.0 - kLine) * (1.0 - kLine), melt);
     }
+#endif
     return mix(first.rgb, second.rgb, part);
+#else
+    return first.rgb;
+#endif
 }
+#endif
 
 // Of the whole, where a surface is cut open.
 vec3 mean_color(int item) {
