@@ -257,12 +257,17 @@ class Painter::Impl {
         const OverlayPainter::Rect changed = setup_.overlay.update_moving_under_layer(t);
         const Image& layer = setup_.overlay.moving_under_layer();
         const PixelRect whole{0, 0, width_px_, height_px_};
-        layer_part_ = setup_.moving
-                          ? filled_part(layer)
-                          : layer_part_.joined(whole.common(
-                                {changed.x, changed.y, changed.right(), changed.bottom()}));
+        constexpr std::size_t kMostParts = 16;
+        if (setup_.moving) {
+            layer_parts_ = {filled_part(layer)};
+        } else if (!changed.empty()) {
+            layer_parts_.push_back(
+                whole.common({changed.x, changed.y, changed.right(), changed.bottom()}));
+            layer_parts_ = apart(layer_parts_, kMostParts);
+        }
         for (const PixelRect& part : parts)
-            lay_over(gl_, layer, layer_part_.common(part), passes_->frame(), color_);
+            for (const PixelRect& filled : layer_parts_)
+                lay_over(gl_, layer, filled.common(part), passes_->frame(), color_);
         gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
     }
 
@@ -315,7 +320,8 @@ class Painter::Impl {
     std::optional<StaticPicture> background_;
     std::optional<StaticDrawing> drawing_;  ///< again and again, where the camera moves
     std::optional<FramePasses> passes_;
-    PixelRect layer_part_;             ///< that what moves below the balls has ever filled
+    /// What moves below the balls has never filled anything else.
+    std::vector<PixelRect> layer_parts_;
     std::optional<PictureMean> mean_;  ///< where there is a shutter
     int most_instants_ = 1;            ///< of one picture
     double read_cpu_s_ = 0;
