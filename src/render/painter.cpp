@@ -71,7 +71,8 @@ class Painter::Impl {
                         FramePasses::Contents{scene, against_, transparent_, options.few_pictures},
                         setup_, color_);
         target.set_value(&*background_);
-        if (setup_.moving) drawing_.emplace(gl_, setup_.kind).aim(*background_);
+        if (setup_.moving)
+            drawing_.emplace(gl_, setup_.kind, StaticPrograms::kEachSetOfBodies).aim(*background_);
         const Image static_layer = setup_.moving ? Image() : setup_.overlay.static_under_layer();
         if (scene.film.shutter_deg > 0) mean_.emplace();
         passes_->prepare(*background_);

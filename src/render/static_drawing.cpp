@@ -6,17 +6,33 @@ namespace carom {
 
 namespace {
 
+/// Kinds of bodies, as bits.
+constexpr unsigned kBoxes = 1, kSpheres = 2, kCapsules = 4;
+
+unsigned bodies_in(const SurfaceTable& table) {
+    return (table.boxes > 0 ? kBoxes : 0U) | (table.spheres > 0 ? kSpheres : 0U) |
+           (table.capsules > 0 ? kCapsules : 0U);
+}
+
+/// Of the lists of a rectangle (BodyTiles): each has its first entry and the ends of its kinds.
+unsigned bodies_in(const float* rectangle) {
+    unsigned bodies = 0;
+    for (const int list : {4, 8})
+        for (const int kind : {0, 1, 2})
+            if (rectangle[list + kind + 1] > rectangle[list + kind]) bodies |= 1U << kind;
+    return bodies;
+}
+
 std::vector<std::string> defines_for(const View& view, const SurfaceTable& table,
-                                     const StaticKind& kind) {
+                                     const StaticKind& kind, unsigned bodies) {
     std::vector<std::string> defines = view_defines(view);
     if (table.planes > 0) defines.push_back("PLANES");
-    if (table.boxes > 0) defines.push_back("BOXES");
-    if (table.spheres > 0) defines.push_back("SPHERES");
-    if (table.capsules > 0) defines.push_back("CAPSULES");
+    if ((bodies & kBoxes) != 0) defines.push_back("BOXES");
+    if ((bodies & kSpheres) != 0) defines.push_back("SPHERES");
+    if ((bodies & kCapsules) != 0) defines.push_back("CAPSULES");
     if (table.checker) defines.push_back("CHECKER");
     if (table.grid) defines.push_back("GRID");
-    if (table.checker || table.grid || table.wood || table.court)
-        defines.push_back("PATTERNED");
+    if (table.checker || table.grid || table.wood || table.court) defines.push_back("PATTERNED");
     if (table.wood) defines.push_back("WOOD");
     if (table.court) defines.push_back("COURT");
     if (kind.occludes) defines.push_back("FRONT");
@@ -42,25 +58,6 @@ GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
     return GlProgram(gl, sources);
 }
 
-void draw_rectangles(const Gl& gl, const BodyTiles& tiles) {
-    const GlVertexArray vertex_array(gl);
-    const GlBuffer buffer(gl);
-    gl.BindVertexArray(vertex_array.name());
-    gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
-    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.rectangles.size() * sizeof(float)),
-                  tiles.rectangles.data(), GL_STREAM_DRAW);
-    constexpr std::size_t kStride = BodyTiles::kRectangleFloats * sizeof(float);
-    for (GLuint i = 0; i < BodyTiles::kRectangleFloats / 4; ++i) {
-        gl.EnableVertexAttribArray(i);
-        gl.VertexAttribDivisor(i, 1);
-        gl.VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kStride),
-                               reinterpret_cast<const void*>(std::size_t{i} * 4 * sizeof(float)));
-    }
-    gl.DrawArraysInstanced(
-        GL_TRIANGLE_STRIP, 0, 4,
-        static_cast<GLsizei>(tiles.rectangles.size() / BodyTiles::kRectangleFloats));
-}
-
 /// Current in this thread for as long as it lives.
 class Current {
   public:
@@ -79,11 +76,17 @@ void StaticDrawing::aim(const StaticPicture& target) {
     framebuffer_ = make_framebuffer(*gl_, "the static picture", target.targets());
 }
 
+GlProgram& StaticDrawing::program_for(const View& view, const SurfaceTable& table,
+                                      unsigned bodies) {
+    std::vector<std::string> defines = defines_for(view, table, kind_, bodies);
+    const auto found = programs_.find(defines);
+    if (found != programs_.end()) return found->second;
+    GlProgram program = make_program(*gl_, defines, kind_);
+    return programs_.emplace(std::move(defines), std::move(program)).first->second;
+}
+
 void StaticDrawing::compile(const View& view, const SurfaceTable& table) {
-    std::vector<std::string> defines = defines_for(view, table, kind_);
-    if (program_ && defines == defines_) return;
-    program_ = make_program(*gl_, defines, kind_);
-    defines_ = std::move(defines);
+    program_for(view, table, bodies_in(table));
 }
 
 void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
@@ -93,9 +96,34 @@ void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTa
 
 void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
                          const PictureScale& scale, const BodyTiles& tiles) {
+    std::map<unsigned, std::vector<float>> by_bodies;
+    if (each_set_) {
+        for (std::size_t i = 0; i < tiles.rectangles.size(); i += BodyTiles::kRectangleFloats) {
+            const float* rectangle = &tiles.rectangles[i];
+            std::vector<float>& those = by_bodies[bodies_in(rectangle)];
+            those.insert(those.end(), rectangle, rectangle + BodyTiles::kRectangleFloats);
+        }
+    } else {
+        by_bodies[bodies_in(table)] = tiles.rectangles;
+    }
     const Gl& gl = *gl_;
-    compile(view, table);
-    GlProgram& program = *program_;
+    GlVec4Array surfaces(gl), listed(gl);
+    surfaces.upload(table.vec4s);
+    surfaces.bind(0);
+    listed.upload(tiles.entries);
+    listed.bind(1);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    gl.Viewport(0, 0, view.width_px(), view.height_px());
+    gl.Disable(GL_BLEND);
+    for (const auto& [bodies, rectangles] : by_bodies)
+        draw_rectangles(program_for(view, table, bodies), view, lights, table, scale, rectangles);
+    gl.check("drawing the static picture");
+}
+
+void StaticDrawing::draw_rectangles(GlProgram& program, const View& view, const Lights& lights,
+                                    const SurfaceTable& table, const PictureScale& scale,
+                                    const std::vector<float>& rectangles) {
+    const Gl& gl = *gl_;
     set_common_uniforms(program, view, lights);
     program.set("u_size", Vec2(view.width_px(), view.height_px()));
     program.set("u_surfaces", 0);
@@ -103,17 +131,22 @@ void StaticDrawing::draw(const View& view, const Lights& lights, const SurfaceTa
     program.set("u_counts", std::array{table.planes, table.boxes, table.spheres, table.capsules});
     program.set("u_fade_m", scale.fade_m);
     program.set("u_ao_reach_m", scale.ao_reach_m);
-    GlVec4Array surfaces(gl), listed(gl);
-    surfaces.upload(table.vec4s);
-    surfaces.bind(0);
-    listed.upload(tiles.entries);
-    listed.bind(1);
 
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    gl.Viewport(0, 0, view.width_px(), view.height_px());
-    gl.Disable(GL_BLEND);
-    draw_rectangles(gl, tiles);
-    gl.check("drawing the static picture");
+    const GlVertexArray vertex_array(gl);
+    const GlBuffer buffer(gl);
+    gl.BindVertexArray(vertex_array.name());
+    gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
+    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rectangles.size() * sizeof(float)),
+                  rectangles.data(), GL_STREAM_DRAW);
+    constexpr std::size_t kStride = BodyTiles::kRectangleFloats * sizeof(float);
+    for (GLuint i = 0; i < BodyTiles::kRectangleFloats / 4; ++i) {
+        gl.EnableVertexAttribArray(i);
+        gl.VertexAttribDivisor(i, 1);
+        gl.VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kStride),
+                               reinterpret_cast<const void*>(std::size_t{i} * 4 * sizeof(float)));
+    }
+    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4,
+                           static_cast<GLsizei>(rectangles.size() / BodyTiles::kRectangleFloats));
 }
 
 double draw_aside(DrawingContexts& contexts, const StaticContents& contents,

@@ -3,7 +3,7 @@
 
 #include <functional>
 #include <future>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,16 +17,23 @@
 
 namespace carom {
 
+/// One program for the whole picture; or one for each set of kinds of bodies that parts of it have
+/// to do with, for a camera that moves: most parts show but planes, and a program for those takes a
+/// third of the time. Same pixels.
+enum class StaticPrograms { kOne, kEachSetOfBodies };
+
 /// Draws into a StaticPicture, from the context that is current when it is made: the picture's own,
 /// or one that shares its textures. Program and framebuffer belong to that context alone.
 class StaticDrawing {
   public:
     /// `gl` must outlive it.
-    StaticDrawing(const Gl& gl, const StaticKind& kind) : gl_(&gl), kind_(kind) {}
+    StaticDrawing(const Gl& gl, const StaticKind& kind,
+                  StaticPrograms programs = StaticPrograms::kOne)
+        : gl_(&gl), kind_(kind), each_set_(programs == StaticPrograms::kEachSetOfBodies) {}
 
     /// What to draw into from now on: a picture of this kind, which must outlive it.
     void aim(const StaticPicture& target);
-    /// Makes the program for such views and surfaces, if it is another one than before.
+    /// Makes the one program for such views and surfaces, if it is another one than before.
     void compile(const View& view, const SurfaceTable& table);
 
     /// Again for another view of the same size and kind, too. The other one has lists of bodies
@@ -37,10 +44,15 @@ class StaticDrawing {
               const PictureScale& scale, const BodyTiles& tiles);
 
   private:
+    GlProgram& program_for(const View& view, const SurfaceTable& table, unsigned bodies);
+    void draw_rectangles(GlProgram& program, const View& view, const Lights& lights,
+                         const SurfaceTable& table, const PictureScale& scale,
+                         const std::vector<float>& rectangles);
+
     const Gl* gl_;
     StaticKind kind_;
-    std::vector<std::string> defines_;  ///< of the program
-    std::optional<GlProgram> program_;
+    bool each_set_;
+    std::map<std::vector<std::string>, GlProgram> programs_;  ///< by what they are made with
     GlFramebuffer framebuffer_;
 };
 

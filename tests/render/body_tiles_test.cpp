@@ -100,8 +100,8 @@ class Studio {
     BodyTiles sorted() const { return sort_into_tiles(table_, view_, lights_, scale_); }
     BodyTiles everywhere() const { return all_bodies_everywhere(table_, view_); }
 
-    Drawn draw(const BodyTiles& tiles) {
-        StaticDrawing drawing(contexts_.main.gl(), kind_);
+    Drawn draw(const BodyTiles& tiles, StaticPrograms programs = StaticPrograms::kOne) {
+        StaticDrawing drawing(contexts_.main.gl(), kind_, programs);
         drawing.aim(picture_);
         drawing.draw(view_, lights_, table_, scale_, tiles);
         return read();
@@ -179,6 +179,12 @@ TEST(BodyTiles, GiveThePictureThatAllBodiesEverywhereGive) {
         const Drawn listed = studio.draw(tiles), all = studio.draw(studio.everywhere());
         EXPECT_EQ(listed.color.bgra, all.color.bgra) << made.name;
         EXPECT_EQ(listed.facts, all.facts) << made.name;
+
+        // So do programs that leave out what the lists do not have.
+        studio.draw(BodyTiles{studio.everywhere().rectangles, {0, 0, 0, 0}});  // something else
+        const Drawn each = studio.draw(tiles, StaticPrograms::kEachSetOfBodies);
+        EXPECT_EQ(listed.color.bgra, each.color.bgra) << made.name;
+        EXPECT_EQ(listed.facts, each.facts) << made.name;
 
         // The lists are shorter than that, and they matter.
         const std::size_t count = tiles.rectangles.size() / BodyTiles::kRectangleFloats;
