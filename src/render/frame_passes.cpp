@@ -151,6 +151,7 @@ void FramePasses::draw_in_its_context(Shared& shared,
     gl.Viewport(0, 0, setup_.view.width_px(), setup_.view.height_px());
     draw(*shared.pass);
     gl.Finish();
+    gl.check("drawing balls");
     contexts_.main.make_current();
 }
 
