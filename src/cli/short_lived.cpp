@@ -8,7 +8,7 @@
 namespace carom {
 
 bool draws_sooner_than_it_compiles(int width_px, int height_px, std::size_t pictures) {
-    constexpr double kFewPixels = 1.5e6;  // found on two cores without a GPU
+    constexpr double kFewPixels = 4e6;  // found on two cores without a GPU: docs/drawing.md
     return static_cast<double>(pictures) * width_px * height_px <= kFewPixels;
 }
 
