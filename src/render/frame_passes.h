@@ -37,8 +37,7 @@ class FramePasses {
     FramePasses(const FramePasses&) = delete;
     FramePasses& operator=(const FramePasses&) = delete;
 
-    /// Makes and compiles all that prepare_aside() has not taken. Before it, the picture's programs
-    /// that are used before these.
+    /// Makes and compiles all that prepare_aside() has not taken.
     void prepare(const StaticPicture& background);
     /// The same beginning from the last, while prepare() is on its way: from another thread, where
     /// contexts.aside is current.

@@ -33,10 +33,9 @@ namespace carom {
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers) X(PFNGLDELETEPROGRAMPROC, DeleteProgram)   \
     X(PFNGLDELETESHADERPROC, DeleteShader) X(PFNGLDELETETEXTURESPROC, DeleteTextures)             \
     X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays) X(PFNGLDISABLEPROC, Disable)               \
-    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)       \
+    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced) X(PFNGLFLUSHPROC, Flush)                 \
     X(PFNGLDRAWBUFFERSPROC, DrawBuffers) X(PFNGLENABLEPROC, Enable)                               \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) X(PFNGLFINISHPROC, Finish)       \
-    X(PFNGLFLUSHPROC, Flush)                                                                      \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D) X(PFNGLGENBUFFERSPROC, GenBuffers)     \
     X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers) X(PFNGLGENTEXTURESPROC, GenTextures)             \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays) X(PFNGLGETERRORPROC, GetError)                   \

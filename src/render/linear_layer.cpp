@@ -26,7 +26,7 @@ PixelRect filled_part(const Image& layer) {
 
 void lay_over_in_linear_light(const Image& layer, int left, int top, Image& target) {
     const std::array<double, 256>& decoded = srgb_decoding();
-    const SrgbEncoder encoded;
+    const SrgbEncoder& encoded = srgb_encoder();
     for (int y = 0; y < target.height_px; ++y) {
         const std::uint8_t* from = layer.row(top + y) + std::ptrdiff_t{4} * left;
         std::uint8_t* to = target.row(y);

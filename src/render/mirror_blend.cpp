@@ -57,7 +57,7 @@ double part_at(const std::uint32_t* facts, double t, double slope) {
 void blend_images(const Mirror& mirror, const View& view, double fade_m, MirrorPart& part) {
     const Rays rays(view);
     const std::array<double, 256>& linear = srgb_decoding();
-    const SrgbEncoder encoded;
+    const SrgbEncoder& encoded = srgb_encoder();
     const Vec3& normal = mirror.normal;
     std::size_t at = 0;
     for (int y = 0; y < part.height_px; ++y) {

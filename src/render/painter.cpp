@@ -80,7 +80,7 @@ class Painter::Impl {
             draw_cpu_s_ += drawn.get();
             if (static_layer.width_px != 0) background_->lay_over(static_layer);
             // For a few pictures it is not worth the while to find out.
-            if (!options.few_pictures)
+            if (passes_->has_shadows() && !options.few_pictures)
                 passes_->see_in_tiles(setup_.view, setup_.lights, seen_in_tiles());
             check_not_blank();
         }

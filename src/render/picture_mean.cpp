@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "render/srgb.h"
 
 namespace carom {
 
@@ -61,6 +62,7 @@ void PictureMean::add(const Gl& gl, const GlFramebuffer& picture) {
 }
 
 void PictureMean::write(Image& picture) const {
+    const SrgbEncoder& encoded = srgb_encoder();
     for (const Sum& mean : sums_) {
         CAROM_CHECK(mean.added, ==, mean.count);
         const double light = 1 / (kWhite * mean.count), opacity = 255 * light;
@@ -70,7 +72,7 @@ void PictureMean::write(Image& picture) const {
                 for (int y = tile.top; y < tile.bottom; ++y) {
                     std::uint8_t* to = picture.row(y) + std::ptrdiff_t{4} * tile.left;
                     for (int x = tile.left; x < tile.right; ++x, to += 4, sum += 4) {
-                        for (int c = 0; c < 3; ++c) to[c] = encode_(light * sum[c]);
+                        for (int c = 0; c < 3; ++c) to[c] = encoded(light * sum[c]);
                         to[3] = static_cast<std::uint8_t>(std::lround(opacity * sum[3]));
                     }
                 }

@@ -7,7 +7,6 @@
 
 #include "core/image.h"
 #include "render/gl.h"
-#include "render/srgb.h"
 #include "render/tile_mask.h"
 
 namespace carom {
@@ -32,7 +31,6 @@ class PictureMean {
 
   private:
     std::array<std::uint32_t, 256> light_{}, opacity_{};  ///< of a code
-    SrgbEncoder encode_;
     struct Sum {
         std::vector<TileMask::Part> parts;
         int count, added;

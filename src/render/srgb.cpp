@@ -36,4 +36,9 @@ SrgbEncoder::SrgbEncoder() {
     }
 }
 
+const SrgbEncoder& srgb_encoder() {
+    static const SrgbEncoder encoder;
+    return encoder;
+}
+
 }  // namespace carom

@@ -30,4 +30,7 @@ class SrgbEncoder {
     std::array<double, 256> limit_{};  ///< where the next code begins; beyond 1 for the last
 };
 
+/// One for all, since making it takes as long as encoding a thousand pixels.
+const SrgbEncoder& srgb_encoder();
+
 }  // namespace carom

@@ -21,7 +21,7 @@ double encoded(double linear) {
 }
 
 TEST(Srgb, EncodesToTheNearestCode) {
-    const SrgbEncoder encode;
+    const SrgbEncoder& encode = srgb_encoder();
     for (int i = 0; i <= 100'000; ++i) {
         const double linear = i / 100'000.0, exact = encoded(linear);
         ASSERT_LE(std::abs(exact - encode(linear)), 0.5 + 1e-3) << linear;
@@ -31,7 +31,7 @@ TEST(Srgb, EncodesToTheNearestCode) {
 }
 
 TEST(Srgb, EveryCodeComesBack) {
-    const SrgbEncoder encode;
+    const SrgbEncoder& encode = srgb_encoder();
     for (std::size_t code = 0; code < 256; ++code)
         EXPECT_EQ(code, encode(srgb_decoding()[code])) << code;
 }
