@@ -10,6 +10,7 @@
 
 #include "cli/cpu_timer.h"
 #include "core/failure.h"
+#include "core/temporary_folder.h"
 #include "media/png.h"
 #include "media/threaded_sink.h"
 
@@ -50,28 +51,6 @@ class PngStream : public FrameSink {
     SinkTimes times_;
 };
 
-/// A folder that goes with its content.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "carom-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw Failure(FailureKind::kOutput, fmt::format("making a temporary folder {}: {}",
-                                                            name, std::strerror(errno)));
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 class FilmStream : public FrameSink {
   public:
     FilmStream(const std::string& format, const FilmOptions& options, int waiting_frames)
@@ -101,7 +80,7 @@ class FilmStream : public FrameSink {
             throw Failure(FailureKind::kOutput, fmt::format("reading {} back failed", path));
     }
 
-    TemporaryFolder folder_;
+    TemporaryFolder folder_{FailureKind::kOutput};
     std::string film_path_;
     std::unique_ptr<FrameSink> film_;
 };

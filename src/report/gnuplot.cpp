@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/failure.h"
+#include "core/temporary_folder.h"
 #include "media/output_file.h"
 #include "report/plot.h"
 
@@ -26,28 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& message) { throw Failure(FailureKind::kRun, message); }
-
-/// A folder that goes with its content: the script and the plot stand in it until the plot is
-/// whole.
-class WorkFolder {
-  public:
-    WorkFolder() {
-        std::string name = (fs::temp_directory_path() / "carom-plot-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            fail(fmt::format("making a temporary folder {}: {}", name, std::strerror(errno)));
-        path_ = name;
-    }
-    ~WorkFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-    std::string file(const std::string& name) const { return (path_ / name).string(); }
-
-  private:
-    fs::path path_;
-};
 
 /// Our own environment, but for what would change the plot.
 std::vector<std::string> environment() {
@@ -165,7 +144,7 @@ std::string read_whole(const std::string& path) {
 }  // namespace
 
 void run_gnuplot(const std::string& script, const std::string& attempt) {
-    const WorkFolder folder;
+    const TemporaryFolder folder(FailureKind::kRun);
     const std::string path = folder.file("script.gp");
     write_text_file(path, script, Durability::kUnsynced);
     const Finished finished = run({"gnuplot", "-d", path});
@@ -180,7 +159,7 @@ void write_plot(const Plot& plot, const std::string& path) {
     if (!format)
         throw Failure(FailureKind::kInput,
                       fmt::format("{}: a plot is a .svg, .png or .pdf file", path));
-    const WorkFolder folder;
+    const TemporaryFolder folder(FailureKind::kRun);
     const std::string drawn = folder.file("plot");
     run_gnuplot(gnuplot_script(plot, *format, drawn), "drawing " + path);
     const std::string bytes = settled(read_whole(drawn), *format);

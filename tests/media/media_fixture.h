@@ -8,7 +8,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,21 +17,13 @@
 
 #include "core/failure.h"
 #include "core/image.h"
+#include "core/temporary_folder.h"
 
 namespace carom {
 
 /// A test in an empty folder of its own.
 class FolderTest : public ::testing::Test {
   protected:
-    FolderTest() {
-        std::string name = (std::filesystem::temp_directory_path() / "carom-test-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) std::abort();
-        folder_ = name;
-    }
-    ~FolderTest() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
     std::string in_folder(const std::string& name) const { return (folder_ / name).string(); }
 
     /// Everything in the folder, hidden names too, sorted.
@@ -44,7 +35,11 @@ class FolderTest : public ::testing::Test {
         return found;
     }
 
-    std::filesystem::path folder_;
+  private:
+    const TemporaryFolder own_folder_{FailureKind::kOutput};
+
+  protected:
+    const std::filesystem::path folder_ = own_folder_.path();
 };
 
 inline std::string bytes_of(const std::string& path) {
