@@ -207,6 +207,35 @@ TEST(Painter, BoxHidesTheBallBehindItAndNotTheOneBefore) {
     EXPECT_LT(red_at(behind, {0, 0.6, 0.35}), 0);
 }
 
+// The wall is cut away for the first picture, which sees it from behind; in the second one it hides
+// a ball, as in the picture of a camera that stands there.
+TEST(Painter, AMovingCameraComesToSeeAWall) {
+    HandMadeScene scene = floor_scene();
+    scene.camera({4, 0, 1.5}, {0, 0, 0.4}, 36);
+    scene.scene.camera->orbit_deg_per_s = 90;
+    scene.surface(PlaneShape{Vec3(-1, 0, 0), -0.9}, scene.look(LookStyle::kPlain, {0.5, 0.6, 0.7}));
+    scene.ball({1.3, 0, 0.4}, 0.3, scene.look(LookStyle::kPlain, kRed));
+    Painter moving(scene.scene, scene.motion, PainterOptions{kWidth, kHeight});
+    Image first, second, standing;
+    moving.paint(0, first);
+    moving.paint(1, second);
+    PainterOptions options{kWidth, kHeight};
+    options.only_at = 1.0;
+    Painter(scene.scene, scene.motion, options).paint(1, standing);
+    EXPECT_TRUE(second == standing);
+
+    const auto red = [](const Image& image) {
+        int count = 0;
+        for (std::size_t i = 0; i < image.bgra.size(); i += 4)
+            count += image.bgra[i + 2] > 2 * image.bgra[i] + 20 ? 1 : 0;
+        return count;
+    };
+    fmt::print("pixels of the ball: {} from behind the wall, {} from before it\n", red(first),
+               red(second));
+    EXPECT_GT(red(first), 500);
+    EXPECT_EQ(0, red(second));
+}
+
 TEST(Painter, DrawsNothingOfBallsOutOfView) {
     HandMadeScene empty;
     empty.camera({0, 0, 0}, {0, 1, 0});
