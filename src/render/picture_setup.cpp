@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "core/check.h"
-#include "render/ball_reflections.h"
 #include "render/camera_motion.h"
+#include "render/mirrors.h"
 #include "render/side_by_side.h"
 
 namespace carom {

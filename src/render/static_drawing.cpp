@@ -1,5 +1,8 @@
 #include "render/static_drawing.h"
 
+#include <array>
+#include <utility>
+
 #include "render/driver_clock.h"
 
 namespace carom {

@@ -123,8 +123,7 @@ float court_lines(vec2 p, mat2 step) {
 
 #ifdef PATTERNED
 // The colour of a surface, whose record's slots 4 and 5 are `first` and `second`, at the pattern
-// coordinate uv [m]; the columns of `step` are how uv moves from
-// pixel to pixel along x and y.
+// coordinate uv [m]; the columns of `step` are how uv moves from pixel to pixel along x and y.
 vec3 pattern(vec4 first, vec4 second, vec2 uv, mat2 step) {
     vec2 extent = vec2(length(vec2(step[0].x, step[1].x)), length(vec2(step[0].y, step[1].y)));
     vec2 x = uv / second.w, w = max(extent / second.w, 1e-5);
