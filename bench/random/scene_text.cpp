@@ -1,0 +1,102 @@
+#include "scene_text.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace carom::bench {
+
+namespace {
+
+std::string text(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+
+std::string shape_text(const PlaneShape& plane) {
+    return fmt::format("plane: {{normal: {}, offset: {}}}", text(plane.normal), plane.offset_m);
+}
+
+std::string shape_text(const BoxShape& box) {
+    std::string turned;
+    const Quat& q = box.orientation;
+    if (!q.vec().isZero(0))
+        turned = fmt::format(", quaternion: [{}, {}, {}, {}]", q.w(), q.x(), q.y(), q.z());
+    return fmt::format("box: {{position: {}, size: {}{}}}", text(box.center), text(box.size),
+                       turned);
+}
+
+std::string shape_text(const SphereShape& sphere) {
+    return fmt::format("sphere: {{position: {}, radius: {}}}", text(sphere.center), sphere.radius);
+}
+
+std::string shape_text(const CapsuleShape& capsule) {
+    return fmt::format("capsule: {{from: {}, to: {}, radius: {}}}", text(capsule.from),
+                       text(capsule.to), capsule.radius);
+}
+
+std::string materials_text(const Scene& scene) {
+    std::string all;
+    for (std::size_t i = 1; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const VirtualBody& body = m.virtual_body;
+        all += fmt::format("  {}: {{", m.name);
+        if (std::isinf(body.distance_m))
+            all += "restitution: 0";
+        else if (body.distance_m == 0)
+            all += "restitution: 1";
+        else
+            all += fmt::format("virtual_body: {{distance: {}, velocity: {}}}", body.distance_m,
+                               body.velocity_m_s);
+        if (m.friction) all += fmt::format(", friction: {}", *m.friction);
+        all += "}\n";
+    }
+    return all.empty() ? all : "materials:\n" + all;
+}
+
+std::string pairs_text(const Scene& scene) {
+    std::string all;
+    for (const PairRule& pair : scene.pairs) {
+        all += fmt::format("  - {{between: [{}, {}]", scene.materials.at(pair.between[0]).name,
+                           scene.materials.at(pair.between[1]).name);
+        if (pair.restitution) all += fmt::format(", restitution: {}", *pair.restitution);
+        if (pair.friction) all += fmt::format(", friction: {}", *pair.friction);
+        all += "}\n";
+    }
+    return all.empty() ? all : "pairs:\n" + all;
+}
+
+std::string material_key(const Scene& scene, int material) {
+    return material == 0 ? ""
+                         : fmt::format(", material: {}",
+                                       scene.materials[static_cast<std::size_t>(material)].name);
+}
+
+std::string ball_text(const Scene& scene, const Ball& b) {
+    std::string line =
+        fmt::format("  - {{name: {}, radius: {}, mass: {}, inertia: {}{}, ", b.name, b.radius,
+                    b.mass, b.inertia_factor, material_key(scene, b.material));
+    line += fmt::format("position: {}", text(b.position));
+    if (!b.velocity.isZero(0)) line += fmt::format(", velocity: {}", text(b.velocity));
+    if (!b.spin.isZero(0)) line += fmt::format(", spin: {}", text(b.spin));
+    return line + "}\n";
+}
+
+}  // namespace
+
+std::string scene_text(const Scene& scene) {
+    const Simulation& s = scene.simulation;
+    std::string all = fmt::format("carom: 1\nsimulation: {{duration: {}, gravity: {}",
+                                  s.duration.value_or(s.max_duration), text(s.gravity));
+    if (s.restitution_constant != Simulation{}.restitution_constant)
+        all += fmt::format(", restitution_constant: {}", s.restitution_constant);
+    all += "}\n" + materials_text(scene) + pairs_text(scene);
+    if (!scene.surfaces.empty()) all += "surfaces:\n";
+    for (const Surface& surface : scene.surfaces)
+        all += fmt::format(
+            "  - {{name: {}, {}{}}}\n", surface.name,
+            std::visit([](const auto& shape) { return shape_text(shape); }, surface.shape),
+            material_key(scene, surface.material));
+    if (!scene.balls.empty()) all += "balls:\n";
+    for (const Ball& ball : scene.balls) all += ball_text(scene, ball);
+    return all;
+}
+
+}  // namespace carom::bench
