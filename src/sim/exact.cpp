@@ -57,7 +57,10 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
             c.separation_speed = relative_velocity(c, start, {}).dot(c.normal);
             contacts.push_back(c);
         }
-        settle(i, 0, start, contacts, body.velocity.norm(), true);
+        if (approaches_at_start(i, contacts))
+            fly(i, 0, start);  // into an impact at once
+        else
+            settle(i, 0, start, contacts, body.velocity.norm(), true);
     }
     world_.balls_can_meet = meeting_.possible;
     if (meeting_.possible && scene.balls.size() >= options.balls_for_grid) world_.build_grid(0);

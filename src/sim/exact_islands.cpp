@@ -131,8 +131,11 @@ void ExactRun::settle_cluster(const Cluster& cluster, double now) {
             join(ball, now, velocities);
             continue;
         }
+        // What touches at the start, and goes on to do so, is no news; nor is it if it bounced
+        // first.
+        const bool at_start = now == 0 && world_.ball(ball).surface < 0;
         cluster.contacts_of(ball, contacts_);
-        settle(ball, now, velocities, contacts_, cluster.first_approach(), false);
+        settle(ball, now, velocities, contacts_, cluster.first_approach(), at_start);
     }
 }
 

@@ -77,17 +77,29 @@ double ExactRun::hop_limit(int ball, const Vec3& position) const {
 
 /// Whether a contact that does not approach is a lasting one; `tail` [s] is how long its remaining
 /// bounces take: 2 v / (g_n (1 - e)), v the separation speed.
-bool ExactRun::lasts(const Contact& c, int ball, double speed_scale, double& tail) const {
+bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
+                     double& tail) const {
     const double g_n = -world_.scene.simulation.gravity.dot(c.normal);
     if (!c.other.is_surface || !(g_n > 1e-14 * world_.scene.simulation.gravity.norm()))
         return false;
     const double v = std::max(c.separation_speed, 0.0);
     tail = 0;
     if (v <= kStillFraction * speed_scale) return true;
-    const Vec3 x = world_.ball(ball).piece.position;
+    const Vec3 x = world_.position(ball, now);
     if (v * v / (2 * g_n) >= hop_limit(ball, x) || c.restitution >= 1) return false;
     tail = 2 * v / (g_n * (1 - c.restitution));
     return true;
+}
+
+/// Whether one of the contacts that a ball has at the start is an impact: it approaches, and faster
+/// than in the bounces that would be summed.
+bool ExactRun::approaches_at_start(int ball, const std::vector<Contact>& contacts) const {
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+        const double v = -c.separation_speed;
+        const double g_n = -world_.scene.simulation.gravity.dot(c.normal);
+        return v > kStillFraction * world_.body(ball).velocity.norm() &&
+               !(v * v / 2 < g_n * hop_limit(ball, world_.body(ball).position));
+    });
 }
 
 void ExactRun::settle(int ball, double now, const Velocities& velocities,
@@ -96,7 +108,7 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
     double tail = 0;
     for (const Contact& c : contacts) {
         double this_tail = 0;
-        if (!lasts(c, ball, speed_scale, this_tail)) continue;
+        if (!lasts(c, ball, now, speed_scale, this_tail)) continue;
         if (lasting != nullptr) {
             join(ball, now, velocities);
             return;
@@ -105,7 +117,13 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
         tail = this_tail;
     }
     if (lasting != nullptr) {
-        stay(ball, now, *lasting, velocities, tail, at_start);
+        const double v = lasting->separation_speed;
+        const bool bounces = std::abs(v) > kStillFraction * speed_scale;
+        const Velocities held =
+            bounces ? without_bounces(flat_contact(world_, ball, *lasting), velocities, v,
+                                      slip_tolerance(ball, now, velocities))
+                    : velocities;
+        stay(ball, now, *lasting, held, tail, at_start);
         return;
     }
     if (world_.ball(ball).surface >= 0) row(now, EventKind::kLeave, ball);

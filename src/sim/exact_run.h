@@ -67,7 +67,9 @@ class ExactRun {
     void resolve(const Contact& seed, double now);
     void settle(int ball, double now, const Velocities& velocities,
                 const std::vector<Contact>& contacts, double speed_scale, bool at_start);
-    bool lasts(const Contact& contact, int ball, double speed_scale, double& tail) const;
+    bool lasts(const Contact& contact, int ball, double now, double speed_scale,
+               double& tail) const;
+    bool approaches_at_start(int ball, const std::vector<Contact>& contacts) const;
     void hold(int ball, double now, const Contact& contact, const Velocities& velocities,
               double tail, bool at_start);
     void fly(int ball, double now, const Velocities& velocities);

@@ -1,5 +1,6 @@
 #include "sim/flat_contact.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom {
@@ -59,6 +60,20 @@ std::optional<FlatMotion> flat_motion(const FlatContact& contact, const Velociti
     motion.spin_rate = n.cross(motion.acceleration) / R;
     motion.kind = v.isZero(0) && g_t.isZero(0) ? EventKind::kRest : EventKind::kRoll;
     return motion;
+}
+
+Velocities without_bounces(const FlatContact& contact, const Velocities& now, double separation,
+                           double slip_tolerance) {
+    if (contact.friction == 0 || separation == 0) return now;
+    const Vec3& n = contact.normal;
+    const double R = contact.radius, k = contact.inertia_factor;
+    const Vec3 slip = tangential_part(now.linear, n) - R * now.spin.cross(n);
+    const double slip_speed = slip.norm();
+    if (!(slip_speed > slip_tolerance)) return now;  // it has gripped, and will at each impact
+    // Before an impact: at most as much as stops the slip.
+    const double given = std::max(contact.friction * separation, -slip_speed / (1 + 1 / k));
+    const Vec3 change = (given / slip_speed) * slip;
+    return {now.linear + change, now.spin - n.cross(change) / (k * R)};
 }
 
 }  // namespace carom

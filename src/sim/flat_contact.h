@@ -37,4 +37,15 @@ struct FlatMotion {
 std::optional<FlatMotion> flat_motion(const FlatContact& contact, const Velocities& now,
                                       double slip_tolerance);
 
+/// The velocities along the surface with which a lasting contact begins where the bounces that are
+/// left of a series are summed. `now` is the state between two impacts, with the speed `separation`
+/// [m/s] along the normal; negative: it approaches, and no impact has been.
+///
+/// The tail's T seconds of contact press with m g_n T, its impacts with m (g_n T - separation) in
+/// all, whatever the coefficient: friction would act on m separation too much. It is given back, as
+/// if the last impact had been without rebound. So the normal force has the same sum and the same
+/// mean time as that of the impacts, and velocities, spin and place at the tail's end are theirs.
+Velocities without_bounces(const FlatContact& contact, const Velocities& now, double separation,
+                           double slip_tolerance);
+
 }  // namespace carom
