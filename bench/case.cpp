@@ -35,8 +35,8 @@ Override set(const std::string& path, const Vec3& value) {
 
 std::vector<Case> all_cases() {
     std::vector<Case> all;
-    for (const auto part :
-         {bounce_cases, impact_cases, chain_cases, friction_cases, contact_cases}) {
+    for (const auto part : {bounce_cases, impact_cases, chain_cases, friction_cases, contact_cases,
+                            seam_cases, surface_cases}) {
         std::vector<Case> some = part();
         std::move(some.begin(), some.end(), std::back_inserter(all));
     }

@@ -58,7 +58,7 @@ struct Case {
     std::vector<Run> runs;
 };
 
-/// H1 ... H30, in order.
+/// H1 ... H35, in order.
 std::vector<Case> all_cases();
 
 // The parts of all_cases().
@@ -67,6 +67,8 @@ std::vector<Case> impact_cases();
 std::vector<Case> chain_cases();
 std::vector<Case> friction_cases();
 std::vector<Case> contact_cases();
+std::vector<Case> seam_cases();
+std::vector<Case> surface_cases();
 
 /// PATH=VALUE with all digits.
 Override set(const std::string& path, double value);

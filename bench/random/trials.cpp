@@ -67,7 +67,7 @@ Verdict judge_motion(const Played& played) {
     for (const Ball& b : played.scene.balls) smallest = std::min(smallest, b.radius);
     if (!(depth.value <= kSteppedDepth * smallest)) fail(v, "passes through", depth, motion);
     if (!(rise.value <= (v.stepped ? kSteppedEnergy : kEnergyLimit)))
-        fail(v, "energy rises", rise, motion);
+        fail(v, v.stepped ? "energy rises, with steps of ODE" : "energy rises", rise, motion);
     if (!v.stepped && !(depth.value <= kDepthLimit)) fail(v, "too deep", depth, motion);
     if (played.scene.surfaces.empty()) {
         const Worst off = momentum_error(played.scene, motion, times);
