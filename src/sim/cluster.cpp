@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "sim/island_sweeps.h"
+#include "sim/seams.h"
 
 namespace carom {
 
@@ -116,6 +117,11 @@ void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
         });
         touch_surfaces(ball);
         touch_balls(ball);
+        merge_places(world_, bodies_[k].position, bodies_[k].velocities, contacts_, first_of_ball_,
+                     [this](const Contact& gone, const Contact& kept) {
+                         int& surface = world_.ball(gone.ball).surface;
+                         if (surface == gone.other.index) surface = kept.other.index;
+                     });
     }
 }
 

@@ -2,25 +2,14 @@
 
 #include <cmath>
 
+#include "sim/feature_side.h"
+
 namespace carom {
 
 namespace {
 
-/// A place this close to a border of two features, as a fraction of the ball's radius and the
-/// place, is on the border.
-constexpr double kBorder = 1e-12;
-
-/// A velocity with no more than this part across a border has none.
-constexpr double kAlongBorder = 1e-12;
-
 /// Part of gravity that tells a lift-off from rounding, for places no larger than their distances.
 constexpr double kLeastPush = 4e-15;
-
-/// Whether motion from a border goes across it, `rate` being the part across.
-bool goes_across(double rate, double pull, double speed) {
-    if (std::abs(rate) > kAlongBorder * speed) return rate > 0;
-    return pull > 0;
-}
 
 Mat3 across_axis(const Vec3& axis) { return Mat3::Identity() - axis * axis.transpose(); }
 
@@ -33,17 +22,15 @@ void fill_plane(CurvedContact& c, const PlaneShape& plane) {
 void fill_capsule(CurvedContact& c, const CapsuleShape& capsule, const Vec3& x, const Vec3& v) {
     const Vec3 d = capsule.to - capsule.from;
     const Vec3 axis = d.normalized();
-    const double length = d.norm(), along = axis.dot(x - capsule.from);
+    const double half = 0.5 * d.norm(), along = axis.dot(x - capsule.from);
     const double border = kBorder * (x.cwiseAbs().maxCoeff() + c.radius);
-    const double rate = axis.dot(v), pull = axis.dot(c.gravity), speed = v.norm();
-    const auto beyond = [&](double out, double sign) {
-        return out > border || (out > -border && goes_across(sign * rate, sign * pull, speed));
-    };
+    const int side =
+        side_of({along - half, axis.dot(v), axis.dot(c.gravity)}, half, border, v.norm());
     c.distance = c.radius + capsule.radius;
-    if (beyond(-along, -1)) {
+    if (side < 0) {
         c.origin = capsule.from;
         c.add_gate(-axis, -axis.dot(capsule.from));
-    } else if (beyond(along - length, 1)) {
+    } else if (side > 0) {
         c.origin = capsule.to;
         c.add_gate(axis, axis.dot(capsule.to));
     } else {
@@ -64,12 +51,9 @@ void fill_box(CurvedContact& c, const BoxShape& box, const Vec3& x, const Vec3& 
     for (int i = 0; i < 3; ++i) {
         const Vec3 axis = world_from_box.col(i);
         const double place = axis.dot(x - box.center), half = 0.5 * box.size[i];
-        const double sign = place < 0 ? -1 : 1, out = sign * place - half;
         const double middle = axis.dot(box.center);
-        const bool outside =
-            out > border ||
-            (out > -border && goes_across(sign * axis.dot(v), sign * axis.dot(c.gravity), speed));
-        if (outside) {
+        const int sign = side_of({place, axis.dot(v), axis.dot(c.gravity)}, half, border, speed);
+        if (sign != 0) {
             c.origin += (sign * half) * axis;
             c.across += axis * axis.transpose();
             c.add_gate(sign * axis, sign * middle + half);

@@ -18,13 +18,16 @@ struct FeatureGate {
     double room(const Vec3& x) const { return direction.dot(x) - offset; }
 };
 
+/// Of the feature itself, and of others that meet the ball in the same place (seams.h).
+inline constexpr int kMostGates = 18;
+
 /// The ball's centre keeps its distance from the core of one feature: a point (a sphere, the end of
 /// a capsule, a corner), a line (a capsule's shaft, an edge) or a plane (a face).
 struct CurvedContact {
     Vec3 origin = Vec3::Zero();      ///< on the core
     Mat3 across = Mat3::Identity();  ///< takes away what lies along the core
     double distance = 1;             ///< of the centre from the core, m
-    std::array<FeatureGate, 6> gates{};
+    std::array<FeatureGate, kMostGates> gates{};
     int gate_count = 0;
 
     double radius = 0.1;          ///< of the ball, m

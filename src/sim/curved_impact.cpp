@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/bernstein.h"
+#include "sim/feature_side.h"
 
 namespace carom {
 
@@ -49,19 +50,21 @@ class FirstTouch {
   public:
     FirstTouch(const CurvedPath& path, bool touching) : path_(path), touching_(touching) {}
 
-    /// `rate_scale`: how the gap's rate goes with the distance's. `touched`: whether the whole body
-    /// is met there.
+    /// `rate_scale`: how the gap's rate goes with the distance's. `holds`: the motion leads to this
+    /// feature, which therefore decides whether they press. `touched`: whether the whole body is
+    /// met there.
     template <class Touched>
-    void offer(LongPolynomial gap, double size, double rate_scale, Touched&& touched) {
+    void offer(LongPolynomial gap, double size, double rate_scale, bool holds, Touched&& touched) {
         if (result_.state == ImpactState::kCapped) return;
         if (touching_ && std::abs(gap.c[0]) <= kContact * size * rate_scale) {
-            in_contact_ = true;
             gap = gap.divided_by_u();
             if (gap.c[0] <= kStill * rate_scale * path_.reach()) {
                 gap = gap.divided_by_u();
-                if (gap.c[0] < 0) return;
+                if (gap.c[0] < 0) {
+                    pressed_ |= holds;
+                    return;
+                }
             }
-            all_pressed_ = false;
         }
         DownwardCrossings crossings(gap);
         for (double u = 0; crossings.next(u);) {
@@ -73,42 +76,62 @@ class FirstTouch {
         }
         if (crossings.capped()) result_ = {ImpactState::kCapped, 0};
     }
-    /// At a border of two features one that lets go is enough.
     TimeOfImpact result() const {
-        if (in_contact_ && all_pressed_) return {ImpactState::kPressed, 0};
-        return result_;
+        return pressed_ ? TimeOfImpact{ImpactState::kPressed, 0} : result_;
     }
 
   private:
     const CurvedPath& path_;
     bool touching_;
-    bool in_contact_ = false;
-    bool all_pressed_ = true;
+    bool pressed_ = false;
     TimeOfImpact result_;
 };
 
 Mat3 across_axis(const Vec3& axis) { return Mat3::Identity() - axis * axis.transpose(); }
 
+/// The side of an extent around `middle` that the beginning of a path leads to.
+int side_along(const CurvedPath& p, const Vec3& axis, const Vec3& middle, double half,
+               double radius) {
+    const double border = kBorder * (p.c[0].cwiseAbs().maxCoeff() + radius);
+    return side_of({axis.dot(p.c[0] - middle), axis.dot(p.c[1]), axis.dot(p.c[2])}, half, border,
+                   p.c[1].norm());
+}
+
 template <class Touched>
 void offer_box(FirstTouch& first, const CurvedPath& p, double radius, const BoxShape& box,
                const Touched& touched) {
+    using Sides = std::array<int, 3>;
     const Mat3 axes = box.orientation.toRotationMatrix();
+    Sides sides{};
     for (int i = 0; i < 3; ++i)
-        for (const double side : {-1.0, 1.0}) {
+        sides[static_cast<std::size_t>(i)] =
+            side_along(p, axes.col(i), box.center, 0.5 * box.size[i], radius);
+    for (int i = 0; i < 3; ++i)
+        for (const int side : {-1, 1}) {
             const Vec3 normal = side * axes.col(i);
             const double offset = normal.dot(box.center) + 0.5 * box.size[i] + radius;
-            first.offer(plane_gap(p, normal, offset), radius, 1, touched);
+            Sides face{};
+            face[static_cast<std::size_t>(i)] = side;
+            first.offer(plane_gap(p, normal, offset), radius, 1, sides == face, touched);
         }
     for (int corner = 0; corner < 8; ++corner) {
         Vec3 at = box.center;
-        for (int i = 0; i < 3; ++i)
-            at += ((corner >> i & 1) != 0 ? 0.5 : -0.5) * box.size[i] * axes.col(i);
-        first.offer(round_gap(p, at, Mat3::Identity(), radius), radius, 2 * radius, touched);
+        Sides there{};
+        for (int i = 0; i < 3; ++i) {
+            const int side = (corner >> i & 1) != 0 ? 1 : -1;
+            there[static_cast<std::size_t>(i)] = side;
+            at += 0.5 * side * box.size[i] * axes.col(i);
+        }
+        first.offer(round_gap(p, at, Mat3::Identity(), radius), radius, 2 * radius, sides == there,
+                    touched);
         // The edges that start at this corner and run along +axis.
-        for (int i = 0; i < 3; ++i)
-            if ((corner >> i & 1) == 0)
-                first.offer(round_gap(p, at, across_axis(axes.col(i)), radius), radius, 2 * radius,
-                            touched);
+        for (int i = 0; i < 3; ++i) {
+            if (there[static_cast<std::size_t>(i)] > 0) continue;
+            Sides along = there;
+            along[static_cast<std::size_t>(i)] = 0;
+            first.offer(round_gap(p, at, across_axis(axes.col(i)), radius), radius, 2 * radius,
+                        sides == along, touched);
+        }
     }
 }
 
@@ -163,7 +186,7 @@ TimeOfImpact curved_impact_with_sphere(const CurvedPath& path, double distance, 
     if (!touching && path.c[0].norm() - path.reach() > distance) return {};
     FirstTouch first(path, touching);
     first.offer(round_gap(path, Vec3::Zero(), Mat3::Identity(), distance), distance, 2 * distance,
-                [](double) { return true; });
+                true, [](double) { return true; });
     return first.result();
 }
 
@@ -179,19 +202,24 @@ TimeOfImpact curved_impact_with_surface(const CurvedPath& ball, double radius,
         return nearest_on_surface(center, radius, shape).gap <= kRounding * scale;
     };
     if (const auto* plane = std::get_if<PlaneShape>(&shape)) {
-        first.offer(plane_gap(ball, plane->normal, plane->offset_m + radius), radius, 1, always);
+        first.offer(plane_gap(ball, plane->normal, plane->offset_m + radius), radius, 1, true,
+                    always);
     } else if (const auto* box = std::get_if<BoxShape>(&shape)) {
         offer_box(first, ball, radius, *box, touched);
     } else if (const auto* capsule = std::get_if<CapsuleShape>(&shape)) {
         const double d = radius + capsule->radius;
-        const Mat3 across = across_axis((capsule->to - capsule->from).normalized());
-        first.offer(round_gap(ball, capsule->from, across, d), d, 2 * d, touched);
-        for (const Vec3& end : {capsule->from, capsule->to})
-            first.offer(round_gap(ball, end, Mat3::Identity(), d), d, 2 * d, touched);
+        const Vec3 whole = capsule->to - capsule->from, axis = whole.normalized();
+        const int side =
+            side_along(ball, axis, 0.5 * (capsule->from + capsule->to), 0.5 * whole.norm(), radius);
+        first.offer(round_gap(ball, capsule->from, across_axis(axis), d), d, 2 * d, side == 0,
+                    touched);
+        first.offer(round_gap(ball, capsule->from, Mat3::Identity(), d), d, 2 * d, side < 0,
+                    touched);
+        first.offer(round_gap(ball, capsule->to, Mat3::Identity(), d), d, 2 * d, side > 0, touched);
     } else {
         const auto& sphere = std::get<SphereShape>(shape);
         const double d = radius + sphere.radius;
-        first.offer(round_gap(ball, sphere.center, Mat3::Identity(), d), d, 2 * d, always);
+        first.offer(round_gap(ball, sphere.center, Mat3::Identity(), d), d, 2 * d, true, always);
     }
     return first.result();
 }

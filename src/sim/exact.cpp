@@ -9,6 +9,7 @@
 #include "sim/effects.h"
 #include "sim/exact_run.h"
 #include "sim/peaks.h"
+#include "sim/seams.h"
 
 namespace carom {
 
@@ -57,6 +58,8 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
             c.separation_speed = relative_velocity(c, start, {}).dot(c.normal);
             contacts.push_back(c);
         }
+        merge_places(world_, body.position, start, contacts, 0,
+                     [](const Contact&, const Contact&) {});
         if (approaches_at_start(i, contacts))
             fly(i, 0, start);  // into an impact at once
         else
@@ -306,10 +309,10 @@ void ExactRun::end_phase(int ball, double now) {
     const Velocities velocities = world_.velocities(ball, now);
     if (b.piece.curve)
         end_curved(ball, now);
-    else if (const Contact c = world_.contact_at(ball, {true, b.surface}, now); b.leaves_at_end)
-        follow(ball, now, c, velocities, 0, false);
-    else
+    else if (const Contact c = world_.contact_at(ball, {true, b.surface}, now); !b.leaves_at_end)
         stay(ball, now, c, velocities, 0, false);
+    else if (!go_over_seam(ball, now, velocities))
+        follow(ball, now, c, velocities, 0, false);
     predict(ball, now);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/exact_run.h"
+#include "sim/seams.h"
 
 namespace carom {
 
@@ -38,16 +39,40 @@ void ExactRun::stay(int ball, double now, const Contact& contact, const Velociti
         follow(ball, now, contact, velocities, tail, at_start);
 }
 
+/// Where the feature that holds the ball ends, another surface that touches it may go on: then
+/// nothing happens to the ball.
+bool ExactRun::go_over_seam(int ball, double now, const Velocities& velocities) {
+    const Contact held = world_.contact_at(ball, {true, world_.ball(ball).surface}, now);
+    const std::optional<SurfaceContact> next =
+        goes_on_with(world_, held, world_.position(ball, now), velocities);
+    if (!next) return false;
+    world_.ball(ball).surface = next->contact.other.index;
+    if (is_plane(next->feature) && can_hold(ball, now, next->contact, velocities))
+        hold(ball, now, next->contact, velocities, 0, false);
+    else
+        follow_feature(ball, now, next->contact, next->feature, velocities, 0, false);
+    return true;
+}
+
 /// The same, integrated.
 void ExactRun::follow(int ball, double now, const Contact& contact, const Velocities& velocities,
                       double tail, bool at_start) {
+    const CurvedContact feature =
+        curved_contact(world_.surface(contact.other.index).shape, world_.position(ball, now),
+                       tangential_part(velocities.linear, contact.normal), world_.ball(ball).radius,
+                       world_.scene.simulation.gravity);
+    follow_feature(ball, now, contact, feature, velocities, tail, at_start);
+}
+
+void ExactRun::follow_feature(int ball, double now, const Contact& contact,
+                              const CurvedContact& feature, const Velocities& velocities,
+                              double tail, bool at_start) {
     const ExactBall& body = world_.ball(ball);
     const Vec3& gravity = world_.scene.simulation.gravity;
     CurvedPhase& phase = curved_[ball];
     phase.state = {world_.position(ball, now), velocities.linear, velocities.spin};
-    phase.contact =
-        curved_contact(world_.surface(contact.other.index).shape, phase.state.x,
-                       tangential_part(velocities.linear, contact.normal), body.radius, gravity);
+    phase.contact = feature;
+    add_borders_of_others(world_, contact, phase.state, phase.contact);
     phase.contact.inertia_factor = body.inertia_factor;
     phase.contact.friction = contact.friction;
     phase.next_seconds = 0;
@@ -142,8 +167,9 @@ void ExactRun::end_curved(int ball, double now) {
             project(phase.contact, CurvedMode::kRolling, phase.state);
             [[fallthrough]];
         case CurvedEnd::kFeature: {
-            const Contact contact = world_.contact_at(ball, surface, now);
             const Velocities velocities{phase.state.v, phase.state.w};
+            if (phase.end == CurvedEnd::kFeature && go_over_seam(ball, now, velocities)) return;
+            const Contact contact = world_.contact_at(ball, surface, now);
             if (phase.end == CurvedEnd::kFeature && is_plane(phase.contact))
                 follow(ball, now, contact, velocities, 0, false);
             else

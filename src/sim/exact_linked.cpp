@@ -7,6 +7,7 @@
 #include "sim/linked_modes.h"
 #include "sim/linked_motion.h"
 #include "sim/linked_steady.h"
+#include "sim/seams.h"
 
 namespace carom {
 
@@ -90,6 +91,7 @@ bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedI
                 contact.feature = curved_contact(world_.surface(c.other.index).shape, is.state[b].x,
                                                  tangential_part(velocities.linear, c.normal),
                                                  body.radius, system.gravity);
+                add_borders_of_others(world_, c, is.state[b], contact.feature);
             } else {
                 contact.other = place(c.other.index);
                 contact.feature.distance = body.radius + world_.ball(c.other.index).radius;

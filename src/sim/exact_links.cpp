@@ -5,6 +5,7 @@
 
 #include "sim/exact_run.h"
 #include "sim/island_step.h"
+#include "sim/seams.h"
 
 namespace carom {
 
@@ -52,7 +53,7 @@ std::vector<int> ExactRun::link_neighbours(std::vector<int> balls, double now) {
         const BallState at = world_.state(ball, now);
         // What rested, flew or had a closed form is stepped from now on.
         if (!world_.ball(ball).stepped) join(ball, now, {at.velocity, at.spin});
-        const std::vector<Link> before = std::move(links_.of(ball));
+        std::vector<Link> before = std::move(links_.of(ball));
         links_.of(ball).clear();
         for (const Link& link : before)
             if (!link.partner.is_surface) reach(link.partner.index);
@@ -65,9 +66,9 @@ std::vector<int> ExactRun::link_neighbours(std::vector<int> balls, double now) {
     return balls;
 }
 
-void ExactRun::link_near(int ball, double now, const std::vector<Link>& before) {
-    const auto offer = [&](const Partner& partner) {
-        if (!stays_together(world_.contact_at(ball, partner, now), now)) return;
+/// A link of `before` that goes on with another surface in the same place keeps what it has stated.
+void ExactRun::link_near(int ball, double now, std::vector<Link>& before) {
+    const auto add = [&](const Partner& partner) {
         const auto old = std::find_if(before.begin(), before.end(), [&partner](const Link& link) {
             return link.partner == partner;
         });
@@ -77,13 +78,31 @@ void ExactRun::link_near(int ball, double now, const std::vector<Link>& before) 
         if (now == 0) link.from_start = true;
         links_.of(ball).push_back(link);
     };
-    for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) offer({true, s});
     const Vec3 x = world_.position(ball, now);
+    std::vector<Contact> met;
+    for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
+        const Contact c = world_.contact_at(ball, {true, s}, now);
+        if (stays_together(c, now)) met.push_back(c);
+    }
+    merge_places(world_, x, world_.velocities(ball, now), met, 0,
+                 [&](const Contact& gone, const Contact& kept) {
+                     const auto is = [](const Partner& partner) {
+                         return [&partner](const Link& link) { return link.partner == partner; };
+                     };
+                     const auto old = std::find_if(before.begin(), before.end(), is(gone.other));
+                     if (old == before.end()) return;
+                     if (std::any_of(before.begin(), before.end(), is(kept.other)))
+                         before.erase(old);
+                     else
+                         old->partner = kept.other;
+                 });
+    for (const Contact& c : met) add(c.other);
     world_.for_each_near(ball, [&](int other) {
         if (world_.ball(other).crowded) return;
         const double reach =
             (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(other).radius);
-        if ((world_.position(other, now) - x).squaredNorm() < reach * reach) offer({false, other});
+        if ((world_.position(other, now) - x).squaredNorm() >= reach * reach) return;
+        if (stays_together(world_.contact_at(ball, {false, other}, now), now)) add({false, other});
     });
 }
 

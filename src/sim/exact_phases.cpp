@@ -86,8 +86,9 @@ bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
     tail = 0;
     if (v <= kStillFraction * speed_scale) return true;
     const Vec3 x = world_.position(ball, now);
-    if (v * v / (2 * g_n) >= hop_limit(ball, x) || c.restitution >= 1) return false;
-    tail = 2 * v / (g_n * (1 - c.restitution));
+    if (v * v / (2 * g_n) >= hop_limit(ball, x)) return false;
+    // Hops that drown in rounding are a contact for any coefficient; only for 1 they have no end.
+    if (c.restitution < 1) tail = 2 * v / (g_n * (1 - c.restitution));
     return true;
 }
 

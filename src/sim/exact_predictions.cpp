@@ -5,6 +5,7 @@
 #include "sim/curved_impact.h"
 #include "sim/exact_run.h"
 #include "sim/island_step.h"
+#include "sim/seams.h"
 #include "sim/time_of_impact.h"
 
 namespace carom {
@@ -163,7 +164,9 @@ void ExactRun::consider_surface(int ball, int surface, double now) {
     const double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
     if (until <= now) return;
     const bool stepped = is_stepped(world_.ball(ball));
-    if (stepped && (links_.linked(ball, partner) || joins_island(partner, ball, now))) return;
+    if (stepped && (links_.linked(ball, partner) || is_beside_link(ball, surface, now) ||
+                    joins_island(partner, ball, now)))
+        return;
     const double from = stepped ? now : world_.ball(ball).piece.start;
     const Path path = world_.path(ball, from);
     const double radius = world_.ball(ball).radius;
@@ -181,7 +184,46 @@ void ExactRun::consider_surface(int ball, int surface, double now) {
                                                            world_.ball(ball).phase_end - from),
                                                radius, shape, touching)
                   : impact_with_surface(path, radius, shape, touching, until - from);
+    if (toi.state == ImpactState::kHit || toi.state == ImpactState::kPressed)
+        toi = beside_held(ball, surface, toi, from);
     accept(partner, ball, toi, touching, separation, from, now);
+}
+
+/// What is left of meeting a surface where another one holds the ball in the same place: nothing
+/// where that one keeps the ball out of it, or goes on to hold.
+TimeOfImpact ExactRun::beside_held(int ball, int surface, const TimeOfImpact& toi,
+                                   double from) const {
+    const double at = from + toi.s;
+    const Vec3 x = world_.position(ball, at);
+    const Contact met = world_.surface_contact(ball, surface, x);
+    TimeOfImpact left = toi;
+    const auto look = [&](int holder) {
+        const Contact held = world_.surface_contact(ball, holder, x);
+        if (holder == surface || !same_place(world_, held, met)) return;
+        const double until = std::min(world_.ball(ball).phase_end, end_);
+        if (keeps_out(world_, ball, surface, at, until)) {
+            left = {};
+        } else if (toi.state == ImpactState::kPressed) {
+            const auto next = goes_on_with(world_, held, x, world_.velocities(ball, at));
+            left = next && next->contact.other.index == surface ? TimeOfImpact{ImpactState::kHit, 0}
+                                                                : TimeOfImpact{};
+        }
+    };
+    if (world_.ball(ball).surface >= 0) look(world_.ball(ball).surface);
+    for (const Link& link : links_.of(ball))
+        if (link.partner.is_surface) look(link.partner.index);
+    return left;
+}
+
+/// Whether a surface meets a ball of an island where a link to another one does.
+bool ExactRun::is_beside_link(int ball, int surface, double now) const {
+    const Contact met = world_.contact_at(ball, {true, surface}, now);
+    if (!in_reach(met)) return false;
+    const auto& links = links_.of(ball);
+    return std::any_of(links.begin(), links.end(), [&](const Link& link) {
+        return link.partner.is_surface &&
+               same_place(world_, world_.contact_at(ball, link.partner, now), met);
+    });
 }
 
 void ExactRun::consider_ball(int ball, int other, double now) {
@@ -273,9 +315,7 @@ void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi,
     if (toi.state == ImpactState::kCapped) refuse("time of impact not found", ball, partner, now);
     if (touching && toi.s > 0) {
         const double hop = 0.25 * toi.s * separation;
-        const Contact contact = world_.contact_at(ball, partner, from);
-        if (contact.restitution < 1 && hop < hop_limit(ball, world_.position(ball, from)))
-            return press(ball, partner, now);
+        if (hop < hop_limit(ball, world_.position(ball, from))) return press(ball, partner, now);
     }
     Prediction& next = next_[static_cast<std::size_t>(ball)];
     const double time = std::max(from + toi.s, now);

@@ -57,6 +57,8 @@ class ExactRun {
     void change_cell(int ball, double now);
     void fit_grid(double now);
     void consider_surface(int ball, int surface, double now);
+    TimeOfImpact beside_held(int ball, int surface, const TimeOfImpact& toi, double from) const;
+    bool is_beside_link(int ball, int surface, double now) const;
     void consider_ball(int ball, int other, double now);
     bool joins_island(const Partner& partner, int ball, double now);
     void accept(const Partner& partner, int ball, const TimeOfImpact& toi, bool touching,
@@ -85,6 +87,9 @@ class ExactRun {
               double tail, bool at_start);
     void follow(int ball, double now, const Contact& contact, const Velocities& velocities,
                 double tail, bool at_start);
+    void follow_feature(int ball, double now, const Contact& contact, const CurvedContact& feature,
+                        const Velocities& velocities, double tail, bool at_start);
+    bool go_over_seam(int ball, double now, const Velocities& velocities);
     CurvedForces choose_mode(CurvedPhase& phase, double tolerance) const;
     void lift_off(int ball, double now, const Vec3& normal);
     void advance(int ball, double now);
@@ -109,7 +114,7 @@ class ExactRun {
     bool in_reach(const Contact& contact) const;
     bool stays_together(const Contact& contact, double now);
     std::vector<int> link_neighbours(std::vector<int> balls, double now);
-    void link_near(int ball, double now, const std::vector<Link>& before);
+    void link_near(int ball, double now, std::vector<Link>& before);
     void note_link(Link& link, const Contact& contact, bool calm, double calm_speed, double now);
     void note_departures(int ball, const std::vector<Link>& before, double now);
     void row_of(const Contact& contact, EventKind kind, double now);

@@ -85,34 +85,39 @@ double ExactWorld::touch_tolerance(const Vec3& a, const Vec3& b, double size) co
 }
 
 Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
+    if (partner.is_surface) return surface_contact(i, partner.index, position(i, t));
+    Contact c;
+    c.ball = std::min(i, partner.index);
+    c.other = {false, std::max(i, partner.index)};
+    const Vec3 a = position(c.ball, t), b = position(c.other.index, t);
+    const double distance = (a - b).norm();
+    const double sum = ball(c.ball).radius + ball(c.other.index).radius;
+    c.normal = distance > 0 ? Vec3((a - b) / distance) : Vec3::UnitZ();
+    c.depth = sum - distance;
+    c.arm_other = ball(c.other.index).radius * c.normal;
+    c.point = b + c.arm_other;
+    set_pair(c, ball(c.other.index).material);
+    return c;
+}
+
+Contact ExactWorld::surface_contact(int i, int index, const Vec3& x) const {
+    const Nearest nearest = nearest_on_surface(x, ball(i).radius, surface(index).shape);
     Contact c;
     c.ball = i;
-    c.other = partner;
-    const Vec3 x = position(i, t);
-    const double radius = ball(i).radius;
-    int material = 0;
-    if (partner.is_surface) {
-        const Nearest nearest = nearest_on_surface(x, radius, surface(partner.index).shape);
-        c.normal = nearest.normal;
-        c.depth = -nearest.gap;
-        c.point = nearest.point;
-        material = surface(partner.index).material;
-    } else {
-        if (partner.index < i) std::swap(c.ball, c.other.index);
-        const Vec3 a = position(c.ball, t), b = position(c.other.index, t);
-        const double distance = (a - b).norm();
-        const double sum = ball(c.ball).radius + ball(c.other.index).radius;
-        c.normal = distance > 0 ? Vec3((a - b) / distance) : Vec3::UnitZ();
-        c.depth = sum - distance;
-        c.arm_other = ball(c.other.index).radius * c.normal;
-        c.point = b + c.arm_other;
-        material = ball(c.other.index).material;
-    }
+    c.other = {true, index};
+    c.normal = nearest.normal;
+    c.depth = -nearest.gap;
+    c.point = nearest.point;
+    set_pair(c, surface(index).material);
+    return c;
+}
+
+/// What follows from the ball and the material of what it meets.
+void ExactWorld::set_pair(Contact& c, int material) const {
     c.arm = -ball(c.ball).radius * c.normal;
     const PairProperties both = pair(ball(c.ball).material, material);
     c.restitution = both.restitution;
     c.friction = both.friction;
-    return c;
 }
 
 bool ExactWorld::touches(const Contact& c, double t) const {

@@ -74,6 +74,8 @@ class ExactWorld {
     /// The contact of ball i with a partner at t, as geometry has it; of two balls, the scene's
     /// first one is `ball`.
     Contact contact_at(int i, const Partner& partner, double t) const;
+    /// The same with a surface, for ball i with its centre at x [m].
+    Contact surface_contact(int i, int surface, const Vec3& x) const;
     bool touches(const Contact& contact, double t) const;
     PairProperties pair(int material_a, int material_b) const;
 
@@ -131,6 +133,7 @@ class ExactWorld {
         return lists_[at_list_];
     }
     const std::vector<int>& near(int ball_index) const;
+    void set_pair(Contact& contact, int material) const;
 
     mutable std::array<NearList, 4> lists_;  ///< the last ones, in turn
     mutable std::size_t at_list_ = 0;

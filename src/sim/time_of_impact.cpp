@@ -1,8 +1,11 @@
 #include "sim/time_of_impact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "sim/feature_side.h"
 
 namespace carom {
 
@@ -43,20 +46,20 @@ Polynomial squared_distance(const Path& p, double d) {
 /// The crossings of one gap, and for a pair in contact whether this gap presses them together.
 struct Crossings {
     Roots roots;
-    bool touching = false;
     bool pressed = false;
 };
 
 /// For a pair in contact: the gap is 0 at s = 0; what comes after is the gap divided by s.
 /// `separation` is the rate of the gap below which they do not move apart.
 Crossings crossings(Polynomial gap, bool touching, double horizon, double separation) {
-    if (!touching) return {downward_crossings(gap, horizon), false, false};
+    if (!touching) return {downward_crossings(gap, horizon), false};
     gap = gap.divided_by_s();
+    bool pressed = false;
     if (gap.c[0] <= separation) {
         gap = gap.divided_by_s();
-        if (gap.c[0] < 0) return {{}, true, true};
+        pressed = gap.c[0] < 0;
     }
-    return {downward_crossings(gap, horizon), true, false};
+    return {downward_crossings(gap, horizon), pressed};
 }
 
 TimeOfImpact first(const Crossings& found) {
@@ -75,9 +78,9 @@ class EarliestTouch {
     EarliestTouch(const Path& ball, double radius, const SurfaceShape& shape)
         : ball_(ball), radius_(radius), shape_(shape) {}
 
-    void offer(const Crossings& found) {
-        touching_ |= found.touching;
-        all_pressed_ &= !found.touching || found.pressed;
+    /// `holds`: the motion leads to this feature, which therefore decides whether they press.
+    void offer(const Crossings& found, bool holds) {
+        pressed_ |= holds && found.pressed;
         const Roots& roots = found.roots;
         if (roots.capped) result_ = {ImpactState::kCapped, 0};
         for (int i = 0; i < roots.count && result_.state != ImpactState::kCapped; ++i) {
@@ -88,9 +91,8 @@ class EarliestTouch {
             return;
         }
     }
-    /// At a border of two features, e.g. where a face ends, one that lets go is enough.
     TimeOfImpact result() const {
-        return touching_ && all_pressed_ ? TimeOfImpact{ImpactState::kPressed, 0} : result_;
+        return pressed_ ? TimeOfImpact{ImpactState::kPressed, 0} : result_;
     }
 
   private:
@@ -107,8 +109,7 @@ class EarliestTouch {
     double radius_;
     const SurfaceShape& shape_;
     TimeOfImpact result_;
-    bool touching_ = false;
-    bool all_pressed_ = true;
+    bool pressed_ = false;
 };
 
 /// The part of a path across a unit axis.
@@ -177,6 +178,26 @@ bool is_contact(bool touching, double gap, double scale) {
     return touching && std::abs(gap) <= 1e-9 * scale;
 }
 
+/// Along a capsule, the side of its shaft that the ball's motion leads to.
+int side_along(const Path& ball, double radius, const CapsuleShape& capsule, const Vec3& axis) {
+    const double half = 0.5 * (capsule.to - capsule.from).norm();
+    const double border = kBorder * (ball.position.cwiseAbs().maxCoeff() + radius);
+    return side_of({axis.dot(ball.position - capsule.from) - half, axis.dot(ball.velocity),
+                    axis.dot(ball.acceleration)},
+                   half, border, ball.velocity.norm());
+}
+
+/// Per axis of a box whose frame the path is in, the side that the motion leads to.
+std::array<int, 3> sides_of(const Path& p, const Vec3& half, double border) {
+    std::array<int, 3> sides{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto axis = static_cast<Eigen::Index>(i);
+        sides[i] = side_of({p.position[axis], p.velocity[axis], p.acceleration[axis]}, half[axis],
+                           border, p.velocity.norm());
+    }
+    return sides;
+}
+
 }  // namespace
 
 TimeOfImpact impact_with_plane(const Path& ball, double radius, const PlaneShape& plane,
@@ -197,14 +218,16 @@ TimeOfImpact impact_with_capsule(const Path& ball, double radius, const CapsuleS
     const SurfaceShape shape = capsule;
     const double d = radius + capsule.radius;
     const Vec3 axis = (capsule.to - capsule.from).normalized();
+    const int side = touching ? side_along(ball, radius, capsule, axis) : 0;
     EarliestTouch earliest(ball, radius, shape);
-    const auto offer = [&](const Path& p) {
+    const auto offer = [&](const Path& p, int at) {
         const bool here = is_contact(touching, p.position.norm() - d, d);
-        earliest.offer(crossings(squared_distance(p, d), here, horizon, 2 * d * still(p)));
+        earliest.offer(crossings(squared_distance(p, d), here, horizon, 2 * d * still(p)),
+                       side == at);
     };
-    offer(across(shifted(ball, capsule.from), axis));
-    offer(shifted(ball, capsule.from));
-    offer(shifted(ball, capsule.to));
+    offer(across(shifted(ball, capsule.from), axis), 0);
+    offer(shifted(ball, capsule.from), -1);
+    offer(shifted(ball, capsule.to), 1);
     return earliest.result();
 }
 
@@ -220,30 +243,41 @@ TimeOfImpact impact_with_box(const Path& ball, double radius, const BoxShape& bo
     if (!touching && !bounds.reaches(-half, half, radius)) return {};
     const SurfaceShape own_frame = BoxShape{Vec3::Zero(), box.size, Quat::Identity()};
     EarliestTouch earliest(p, radius, own_frame);
+    using Sides = std::array<int, 3>;
+    const double border = kBorder * (ball.position.cwiseAbs().maxCoeff() + radius);
+    const Sides sides = touching ? sides_of(p, half, border) : Sides{};
 
     for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
+        for (const int side : {-1, 1}) {
             const Polynomial gap{{side * p.position[axis] - half[axis] - radius,
                                   side * p.velocity[axis], 0.5 * side * p.acceleration[axis], 0,
                                   0}};
             const bool here = is_contact(touching, gap.c[0], radius);
-            earliest.offer(crossings(gap, here, horizon, still(p)));
+            Sides face{};
+            face[static_cast<std::size_t>(axis)] = side;
+            earliest.offer(crossings(gap, here, horizon, still(p)), sides == face);
         }
-    const auto offer_round = [&](const Path& q) {
+    const auto offer_round = [&](const Path& q, const Sides& at) {
         const bool here = is_contact(touching, q.position.norm() - radius, radius);
-        earliest.offer(
-            crossings(squared_distance(q, radius), here, horizon, 2 * radius * still(q)));
+        earliest.offer(crossings(squared_distance(q, radius), here, horizon, 2 * radius * still(q)),
+                       sides == at);
     };
     for (int corner = 0; corner < 8; ++corner) {
         Vec3 c;
-        for (int axis = 0; axis < 3; ++axis)
-            c[axis] = (corner >> axis & 1) != 0 ? half[axis] : -half[axis];
-        if (bounds.reaches(c, c, radius)) offer_round(shifted(p, c));
+        Sides at{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool beyond = (corner >> axis & 1) != 0;
+            c[axis] = beyond ? half[axis] : -half[axis];
+            at[static_cast<std::size_t>(axis)] = beyond ? 1 : -1;
+        }
+        if (bounds.reaches(c, c, radius)) offer_round(shifted(p, c), at);
         // The edges that start at this corner and run along +axis.
         for (int axis = 0; axis < 3; ++axis) {
             const Vec3 end = c + box.size[axis] * Vec3::Unit(axis);
-            if (c[axis] < 0 && bounds.reaches(c, end, radius))
-                offer_round(across(shifted(p, c), Vec3::Unit(axis)));
+            if (!(c[axis] < 0 && bounds.reaches(c, end, radius))) continue;
+            Sides along = at;
+            along[static_cast<std::size_t>(axis)] = 0;
+            offer_round(across(shifted(p, c), Vec3::Unit(axis)), along);
         }
     }
     return earliest.result();
