@@ -121,6 +121,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     const Motion& motion = simulated.motion;
     if (second) stats.add_second(*second);
     stats.add_verdict(*scene, motion, options.common.quiet);
+    Stats::warn_of_unrest(simulated.report, options.common.quiet);
     const std::vector<std::int64_t> frames =
         wanted_frames(options, frame_count(scene->film, motion.duration));
     check_outputs(requests(options), frames, options.common.overwrite);

@@ -72,6 +72,7 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
         simulated = simulate(*scene, interrupt.token());
     }
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
+    Stats::warn_of_unrest(simulated.report, options.common.quiet);
 
     {
         const CpuTimer timer(stats.sinks.write_cpu_s);

@@ -67,6 +67,10 @@ void Stats::add_verdict(const Scene& scene, const Motion& motion, bool quiet) {
     if (verdict && !quiet) fmt::print(stderr, "carom: {}\n", verdict_text(scene, *verdict));
 }
 
+void Stats::warn_of_unrest(const SimulationReport& report, bool quiet) {
+    if (!report.unrest.empty() && !quiet) fmt::print(stderr, "carom: warning: {}\n", report.unrest);
+}
+
 std::map<std::string, std::string> library_versions() {
     std::map<std::string, std::string> versions = {{"carom", CAROM_VERSION}};
     versions.merge(simulation_versions());

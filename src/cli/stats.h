@@ -41,6 +41,8 @@ struct Stats {
     void add_second(const FilmedSecond& filmed);
     /// Judges the scene's test, if it has one, and says the verdict on standard error.
     void add_verdict(const Scene& scene, const Motion& motion, bool quiet);
+    /// Warns on standard error where a motion until rest ended before all rested.
+    static void warn_of_unrest(const SimulationReport& report, bool quiet);
 };
 
 /// The JSON text; `result` is empty only when nothing was simulated.

@@ -92,6 +92,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     }
     if (second) stats.add_second(*second);
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
+    Stats::warn_of_unrest(simulated.report, options.common.quiet);
     const double duration = simulated.motion.duration;
     if (!(options.time >= 0 && options.time <= duration))
         throw Failure(FailureKind::kInput, fmt::format("--time {}: the motion lasts from 0 to {} s",

@@ -8,6 +8,7 @@
 #include "core/failure.h"
 #include "sim/effects.h"
 #include "sim/exact_run.h"
+#include "sim/island_step.h"
 #include "sim/peaks.h"
 #include "sim/seams.h"
 
@@ -16,7 +17,7 @@ namespace carom {
 namespace {
 
 /// Events at one instant, up to this many roundings of the time, belong together.
-constexpr double kSameInstant = 4 * std::numeric_limits<double>::epsilon();
+constexpr double kTogether = 4 * std::numeric_limits<double>::epsilon();
 
 /// Events without progress in time, before the run is given up. A rack of balls needs hundreds.
 constexpr int kMostAtOneInstant = 100'000;
@@ -89,7 +90,10 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
     for (std::int64_t events = 0;; ++events) {
         const DueList::Entry first = due_.first();
         const bool step = next_step_ <= first.time;
-        if (std::min(next_step_, first.time) > end_) break;
+        if (std::min(next_step_, first.time) > end_) {
+            if (until_rest) report_.unrest = unrest();
+            break;
+        }
         Prediction next;
         if (step) {
             next.time = next_step_;
@@ -137,29 +141,12 @@ void ExactRun::fetch(int ball) const {
 /// The next prediction, and the others of its instant.
 void ExactRun::take_together(const Prediction& next) {
     together_.assign(1, next);
-    while (due_.first().time <= next.time * (1 + kSameInstant)) {
+    while (due_.first().time <= next.time * (1 + kTogether)) {
         const int ball = due_.first().ball;
         const Prediction p = due(ball);
         if (current(p)) together_.push_back(p);
         due_.drop(ball);
     }
-}
-
-bool ExactRun::at_rest(int ball) const {
-    const ExactBall& b = world_.ball(ball);
-    return b.asleep || (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.row_due));
-}
-
-bool ExactRun::all_at_rest() {
-    // The ball that moved when last asked most likely still does.
-    const std::size_t balls = world_.balls.size();
-    for (std::size_t i = 0; i < balls; ++i) {
-        const std::size_t ball = (awake_ + i) % balls;
-        if (at_rest(static_cast<int>(ball))) continue;
-        awake_ = ball;
-        return false;
-    }
-    return true;
 }
 
 SimulationResult ExactRun::finish() {
@@ -249,11 +236,14 @@ Contact ExactRun::contact_met(const Prediction& p, double now) {
 void ExactRun::resolve(const Contact& seed, double now) {
     cluster_.gather(seed, seeds_, now);
     impacts_.clear();
-    cluster_.resolve(solver_, impacts_, limits_of(cluster_));
+    const Cluster::Limits limits = limits_of(cluster_);
+    cluster_.resolve(solver_, impacts_, limits);
+    const double rounding_speed =
+        std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
     write_impacts(impacts_, now);
     for (const int ball : cluster_.balls()) {
         world_.ball(ball).resolved = instant_;
-        world_.ball(ball).rounding_speed = cluster_.rounding_speed();
+        world_.ball(ball).rounding_speed = rounding_speed;
     }
     settle_cluster(cluster_, now);
     const bool lossy = std::any_of(impacts_.begin(), impacts_.end(),

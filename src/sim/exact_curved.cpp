@@ -79,7 +79,7 @@ void ExactRun::follow_feature(int ball, double now, const Contact& contact,
     project(phase.contact, CurvedMode::kSmooth, phase.state);
     const CurvedForces forces = choose_mode(phase, slip_tolerance(ball, now, velocities));
     if (!(forces.push > least_push(phase.contact, phase.state.x))) {
-        lift_off(ball, now, forces.normal);
+        lift_off(ball, now, contact.other, forces.normal);
         return;
     }
     const bool still = phase.state.v.isZero(0) && phase.mode != CurvedMode::kSliding;
@@ -113,7 +113,7 @@ CurvedForces ExactRun::choose_mode(CurvedPhase& phase, double tolerance) const {
     return grip_left(phase.contact, rolling) >= 0 ? rolling : forces(CurvedMode::kIncipient);
 }
 
-void ExactRun::lift_off(int ball, double now, const Vec3& normal) {
+void ExactRun::lift_off(int ball, double now, const Partner& surface, const Vec3& normal) {
     ExactBall& b = world_.ball(ball);
     const CurvedState& s = curved_[ball].state;
     put_at(ball, now, s.x);
@@ -121,6 +121,7 @@ void ExactRun::lift_off(int ball, double now, const Vec3& normal) {
         b.normal = normal;
         row(now, EventKind::kLeave, ball);
     }
+    note_parting(world_.contact_at(ball, surface, now), now);
     fly(ball, now, {s.v, s.w});
 }
 
@@ -161,7 +162,7 @@ void ExactRun::end_curved(int ball, double now) {
         case CurvedEnd::kNone:
             break;
         case CurvedEnd::kLiftOff:
-            lift_off(ball, now, b.normal);
+            lift_off(ball, now, surface, b.normal);
             return;
         case CurvedEnd::kSlipEnds:
             project(phase.contact, CurvedMode::kRolling, phase.state);

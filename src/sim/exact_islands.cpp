@@ -20,12 +20,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCalmFraction = 1e-3;
 constexpr double kCalmSeconds = 20 * kIslandStep;
 
+/// Of balls so small that gravity gives them no more than a step's speed over their own size, a
+/// part of sqrt(g r), the speed that belongs to the smallest radius, stands in the place of g h.
+constexpr double kSizeFraction = 8e-3;
+
 /// It rests as well when none has been faster than this for so long: gravity does less than 1e-4 g.
 constexpr double kSlowFraction = 2e-2;
 constexpr double kSlowSeconds = 200 * kIslandStep;
-
-/// Steps that end within so many roundings of the time end together.
-constexpr double kSameInstant = 16 * std::numeric_limits<double>::epsilon();
 
 /// Links that one impact can pass through at once, by Newton's law. What is left beyond them is
 /// solved by the next step, without rebound.
@@ -36,6 +37,9 @@ constexpr std::size_t kMostLinked = 40;
 constexpr std::size_t kCrowd = 24;
 constexpr std::size_t kSmallCrowd = 4;
 constexpr int kRestlessSteps = 1000;
+
+/// Normals closer than this [rad] are one, along which a resting ball may spin.
+constexpr double kSameNormal = 1e-9;
 
 /// Rounds per contact of a cluster in an island.
 constexpr std::size_t kLinkedRounds = 2;
@@ -71,11 +75,14 @@ void ExactRun::join(int ball, double now, const Velocities& velocities) {
         link.partner = {true, b.surface};
         link.last = world_.contact_at(ball, link.partner, now);
         link.stated = std::isinf(b.row_due) ? b.kind : EventKind::kLeave;
+        if (!std::isinf(b.row_due)) link.row_due = b.row_due;
         links_.of(ball) = {link};
     }
     BallState at = world_.state(ball, now);
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
+    // Where balls are many, what they join is most likely stepped.
+    if (!is_stepped(b)) b.coarse = has_many_balls();
     b.surface = -1;
     b.stepped = true;
     b.asleep = false;
@@ -116,19 +123,30 @@ bool ExactRun::in_island(const Cluster& cluster) const {
     });
 }
 
-/// In an island, what is slower than a step can tell is left to the step, and a pile that goes on
-/// passing an impact to and fro is given up on as one inelastic contact.
+/// In an island that ODE steps, what is slower than a step can tell is left to the step, and a pile
+/// that goes on passing an impact to and fro is given up on as one inelastic contact. In others
+/// nothing is too slow that is no rounding.
 Cluster::Limits ExactRun::limits_of(const Cluster& cluster) const {
-    if (!in_island(cluster)) return {};
-    return {slow_speed(world_), kLinkedRounds * cluster.contact_count()};
+    Cluster::Limits limits;
+    for (const int ball : cluster.balls()) {
+        const ExactBall& b = world_.ball(ball);
+        if (!is_stepped(b)) continue;
+        limits.enough = std::max(limits.enough, b.rounding_speed);
+        if (b.coarse) return {slow_speed(world_), kLinkedRounds * cluster.contact_count()};
+    }
+    return limits;
 }
 
 void ExactRun::settle_cluster(const Cluster& cluster, double now) {
     const bool stepped = in_island(cluster);
+    // What was left to a step has to be linked for it.
+    const bool coarse = std::any_of(cluster.balls().begin(), cluster.balls().end(),
+                                    [this](int ball) { return world_.ball(ball).coarse; });
     for (const int ball : cluster.balls()) {
         const Velocities& velocities = cluster.body(ball).velocities;
         if (stepped) {
             join(ball, now, velocities);
+            world_.ball(ball).coarse = coarse;
             continue;
         }
         // What touches at the start, and goes on to do so, is no news; nor is it if it bounced
@@ -176,11 +194,15 @@ bool ExactRun::leave_island(int ball, double now) {
         fly(ball, now, velocities);
         return true;
     }
-    // It joined because it met something: it takes a step before it is looked at alone.
-    if (links.size() > 1 || world_.ball(ball).steps == 0) return false;
+    if (links.size() > 1) return false;
     const Link link = links.front();
     const Contact contact = world_.contact_at(ball, link.partner, now);
-    if (!link.pressed && velocities.linear.dot(contact.normal) > 0) {  // it has lifted off
+    // It joined because it met something: where nothing else tells whether the contact presses, a
+    // step does.
+    const bool presses = !world_.ball(ball).coarse && pressing_gravity(contact.normal) > 0 &&
+                         parting_of(contact, now) == nullptr;
+    if (world_.ball(ball).steps == 0 && !presses) return false;
+    if (!presses && !link.pressed && velocities.linear.dot(contact.normal) > 0) {  // lifted off
         if (link.stated != EventKind::kLeave || link.from_start)
             row_of(contact, EventKind::kLeave, now);
         links.clear();
@@ -192,8 +214,19 @@ bool ExactRun::leave_island(int ball, double now) {
         world_.ball(ball).kind = link.stated;
     }
     links.clear();
-    stay(ball, now, contact, velocities, 0, link.from_start);
+    const double v = velocities.linear.dot(contact.normal);
+    const bool lands = landing_of(contact, now) != nullptr;
+    stay(ball, now, contact, lands ? landed(ball, now, contact, velocities, v) : velocities,
+         std::max(link.row_due - now, 0.0), link.from_start);
     return true;
+}
+
+/// What gravity does to speeds in a step, or what is little for balls of this size, m/s.
+double ExactRun::step_speed(const std::vector<int>& balls) const {
+    double radius = kInfinity;
+    for (const int ball : balls) radius = std::min(radius, world_.ball(ball).radius);
+    return std::min(slow_speed(world_),
+                    kSizeFraction * std::sqrt(world_.scene.simulation.gravity.norm() * radius));
 }
 
 void ExactRun::step_island(const std::vector<int>& balls, double now) {
@@ -202,7 +235,7 @@ void ExactRun::step_island(const std::vector<int>& balls, double now) {
     step.solve(island_solver_);
     ++report_.steps;
 
-    const double calm_speed = kCalmFraction * world_.scene.simulation.gravity.norm() * kIslandStep;
+    const double calm_speed = kCalmFraction * step_speed(balls);
     const bool calm = step.is_calm(calm_speed);
     const bool slow = calm || step.is_calm(kSlowFraction / kCalmFraction * calm_speed);
     bool asleep = slow;
@@ -215,7 +248,7 @@ void ExactRun::step_island(const std::vector<int>& balls, double now) {
                             b.slow_steps * step.seconds() >= kSlowSeconds);
         ++b.steps;
         b.phase_end = now + step.seconds();
-        b.stepped = true;
+        b.stepped = b.coarse = true;
         begin_piece(balls[i], now, r.start, r.acceleration, r.spin_rate);
     }
     for (std::size_t i = 0; i < step.contacts().size(); ++i) {
@@ -230,12 +263,27 @@ void ExactRun::step_island(const std::vector<int>& balls, double now) {
         fall_asleep(balls, now, calm ? calm_speed : kSlowFraction / kCalmFraction * calm_speed);
 }
 
+/// What is left of a spin where nothing slips: that about the normal which all contacts with
+/// friction share.
+Vec3 ExactRun::resting_spin(int ball, const Vec3& spin) const {
+    const Link* first = nullptr;
+    for (const Link& link : links_.of(ball)) {
+        if (!link.pressed || link.last.friction == 0) continue;
+        if (first != nullptr && link.last.normal.cross(first->last.normal).norm() > kSameNormal)
+            return Vec3::Zero();
+        first = &link;
+    }
+    if (first == nullptr) return spin;
+    return spin.dot(first->last.normal) * first->last.normal;
+}
+
 /// The balls stop exactly where they are; spins about the normals of their contacts go on.
 void ExactRun::fall_asleep(const std::vector<int>& balls, double now, double calm_speed) {
     for (const int ball : balls) {
         ExactBall& b = world_.ball(ball);
         BallState at = world_.state(ball, now);
         at.velocity.setZero();
+        at.spin = resting_spin(ball, at.spin);
         if (world_.ball(ball).radius * at.spin.norm() < calm_speed) at.spin.setZero();
         b.stepped = false;
         b.asleep = true;

@@ -13,10 +13,8 @@ namespace carom {
 
 namespace {
 
-/// What comes to no rest by itself, such as a ball that rocks in a groove, is laid to rest when
-/// for so long nothing has been faster than this fraction of g h, h a step.
-constexpr double kSlowFraction = 2e-2;
-constexpr double kSlowSeconds = 2;
+/// What has been no faster than the rounding of its speeds for so long is at rest.
+constexpr double kStillSeconds = 2;
 
 /// At rest gravity sets nothing in motion but roundings, as fractions of g and of the speeds.
 constexpr double kBalanced = 1e-12;
@@ -62,10 +60,11 @@ bool is_still(const LinkedBalls& system, const LinkedState& state, const LinkedF
 
 }  // namespace
 
+bool ExactRun::has_many_balls() const { return world_.balls.size() > kFewBalls; }
+
 /// The island as a system of its own. False if it is too large, or not together.
 bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedIsland& is) const {
-    const bool many = world_.balls.size() > kFewBalls;
-    if (island.size() > (many ? 2 : kMostLinkedBalls)) return false;
+    if (island.size() > (has_many_balls() ? 2 : kMostLinkedBalls)) return false;
     if (world_.scene.simulation.gravity.isZero(0)) return false;
     LinkedBalls& system = is.system;
     system.gravity = world_.scene.simulation.gravity;
@@ -102,9 +101,16 @@ bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedI
     return true;
 }
 
-/// Of two that do not press any more: they have parted.
-void ExactRun::unlink(const Contact& c, double now) {
+/// Two that do not press any more have parted.
+void ExactRun::note_parting(const Contact& c, double now) {
+    std::erase_if(partings_, [now](const Parting& p) { return p.time < now; });
     partings_.push_back({c.ball, c.other, now});
+    std::erase_if(landings_,
+                  [&c](const Landing& l) { return l.ball == c.ball && l.partner == c.other; });
+}
+
+void ExactRun::unlink(const Contact& c, double now) {
+    note_parting(c, now);
     const Link* link = links_.find(c.ball, c.other);
     if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
         row_of(c, EventKind::kLeave, now);
@@ -131,6 +137,9 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     if (island.size() == 1 && is.contacts.size() < 2) return false;
     const LinkedForces before = linked_forces(is.system, is.state);
     const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
+    if (std::any_of(is.contacts.begin(), is.contacts.end(),
+                    [&](const Contact& c) { return landing_of(c, now) != nullptr; }))
+        land(is.system, is.state);
     if (!choose_modes(is.system, is.state)) return false;
     bool parted = false;
     LinkedForces forces = linked_forces(is.system, is.state);
@@ -155,8 +164,14 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     begin_pieces(island, now, is, piece, rounding_speed);
     note_forces(is, forces, still, now);
     ++report_.integrated;
-    std::erase_if(partings_, [now](const Parting& p) { return p.time < now; });
-    if (still || has_slowed_down(island, now, piece.seconds)) fall_asleep(island, now, 0);
+    // A series that is over has its row at its end.
+    const double row = next_row(island, now);
+    for (const int ball : island) {
+        double& end = world_.ball(ball).phase_end;
+        end = still ? row : std::min(end, row);
+    }
+    if (std::isinf(row) && (still || is_at_rest(island, is, forces, now, piece.seconds)))
+        fall_asleep(island, now, 0);
     return true;
 }
 
@@ -173,6 +188,7 @@ void ExactRun::begin_pieces(const std::vector<int>& island, double now, const Li
         ball.rounding_speed = rounding_speed;
         ball.phase_end = now + piece.seconds;
         ball.stepped = true;
+        ball.coarse = false;
         begin_piece(island[b], now, at, piece.balls[b].acceleration, piece.balls[b].spin_rate,
                     piece.seconds > 0 && piece.curved ? OptionalCurve(piece.balls[b].curve)
                                                       : OptionalCurve());
@@ -213,18 +229,23 @@ LinkedPiece ExactRun::piece_of(int first_ball, double now, LinkedIsland& is, Lin
     return piece;
 }
 
-/// Whether the island has hardly moved for long, `seconds` of it ahead.
-bool ExactRun::has_slowed_down(const std::vector<int>& island, double now, double seconds) {
-    const double slow = kSlowFraction * slow_speed(world_);
-    const bool calm = std::all_of(island.begin(), island.end(), [&](int ball) {
+/// Whether the speeds and slips of the island have long been what rounding leaves, `seconds` of it
+/// ahead. Newton's first law knows no lowest speed but that.
+bool ExactRun::is_at_rest(const std::vector<int>& island, const LinkedIsland& is,
+                          const LinkedForces& forces, double now, double seconds) {
+    const double slow = kRoundingSpeed * speed_of(is.system, {});
+    bool calm = std::all_of(island.begin(), island.end(), [&](int ball) {
         return world_.velocities(ball, now).linear.norm() <= slow &&
                world_.velocities(ball, now + seconds).linear.norm() <= slow;
     });
+    for (std::size_t i = 0; i < is.contacts.size(); ++i)
+        calm =
+            calm && (is.system.contacts[i].friction == 0 || forces.contacts[i].slip.norm() <= slow);
     bool long_enough = calm;
     for (const int ball : island) {
         ExactBall& b = world_.ball(ball);
         b.slow_steps = calm ? b.slow_steps + static_cast<int>(seconds / kIslandStep) + 1 : 0;
-        long_enough = long_enough && b.slow_steps * kIslandStep >= kSlowSeconds;
+        long_enough = long_enough && b.slow_steps * kIslandStep >= kStillSeconds;
     }
     return long_enough;
 }
@@ -243,7 +264,7 @@ void ExactRun::note_forces(const LinkedIsland& is, const LinkedForces& forces, b
             link.slip_begins = mode == CurvedMode::kIncipient;
             if (!link.pressed) continue;
             link.last = contact;
-            if (still || kind_of(mode) == link.stated) continue;
+            if (still || kind_of(mode) == link.stated || row_waits(link, now)) continue;
             if (!link.from_start) row_of(contact, kind_of(mode), now);
             link.from_start = false;
             link.stated = link.candidate = kind_of(mode);

@@ -1,6 +1,7 @@
 // Which contacts of an island last, and what the events say about them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "sim/exact_run.h"
@@ -14,11 +15,51 @@ namespace {
 /// A kind of contact is stated when it has been the same for so many steps.
 constexpr int kKindSteps = 3;
 
+/// Two bodies of an island that is integrated touch up to this gap, as a fraction of the smaller
+/// radius: a hundred times the error of a piece.
+constexpr double kFineGap = 1e-10;
+
+/// A force of this fraction of a ball's weight is none: more than the rounding of the forces.
+constexpr double kBalanced = 1e-11;
+
+auto with(const Partner& partner) {
+    return [&partner](const Link& link) { return link.partner == partner; };
+}
+
 }  // namespace
 
-/// Whether a contact of an island lasts: hardly a gap, and hardly a speed along the normal. What
-/// gravity does in one step is the finest that a step can tell.
-bool ExactRun::stays_together(const Contact& contact, double now) {
+void ExactRun::note_landing(const Contact& contact, double now, double row_due) {
+    std::erase_if(landings_, [&](const Landing& l) {
+        return l.time < now || (l.ball == contact.ball && l.partner == contact.other);
+    });
+    landings_.push_back({contact.ball, contact.other, now, row_due});
+}
+
+const ExactRun::Landing* ExactRun::landing_of(const Contact& contact, double now) const {
+    const auto found = std::find_if(landings_.begin(), landings_.end(), [&](const Landing& l) {
+        return l.time == now && l.ball == contact.ball && l.partner == contact.other;
+    });
+    return found == landings_.end() ? nullptr : &*found;
+}
+
+/// When the next row of a bouncing series that is over is due; infinite if none is.
+double ExactRun::next_row(const std::vector<int>& island, double now) const {
+    double next = std::numeric_limits<double>::infinity();
+    for (const int ball : island)
+        for (const Link& link : links_.of(ball))
+            if (row_waits(link, now)) next = std::min(next, link.row_due);
+    return next;
+}
+
+/// One of the two is in an island that ODE steps.
+bool ExactRun::is_coarse(const Contact& c) const {
+    return world_.ball(c.ball).coarse || (!c.other.is_surface && world_.ball(c.other.index).coarse);
+}
+
+/// Whether a contact of an island lasts: no gap, and no speed along the normal but for rounding.
+/// Where ODE steps, what gravity does in one step is the finest that a step can tell.
+bool ExactRun::stays_together(const Contact& contact, double now, const Link* link) {
+    if (landing_of(contact, now) != nullptr) return true;
     if (!in_reach(contact)) return false;
     Vec3 v = world_.velocities(contact.ball, now).linear;
     double still = kStillFraction * v.norm() + world_.ball(contact.ball).rounding_speed;
@@ -32,14 +73,32 @@ bool ExactRun::stays_together(const Contact& contact, double now) {
         if (speed < -still) parting->pressed = true;
         if (!parting->pressed) return false;
     }
-    return std::abs(speed) <= slow_speed(world_);
+    if (is_coarse(contact)) return std::abs(speed) <= slow_speed(world_);
+    if (std::abs(speed) <= still) return true;
+    if (!(speed > 0) || link == nullptr || !hops_on(contact, *link, speed, now)) return false;
+    note_landing(contact, now, now);
+    return true;
+}
+
+/// Whether what has just separated comes back by a hop that would be summed: the force that pressed
+/// the two tells how fast.
+bool ExactRun::hops_on(const Contact& contact, const Link& link, double separation,
+                       double now) const {
+    double inverse_mass = 1 / world_.ball(contact.ball).mass;
+    if (!contact.other.is_surface) inverse_mass += 1 / world_.ball(contact.other.index).mass;
+    const double a = link.push.dot(contact.normal) / kIslandStep * inverse_mass;
+    return link.pressed && a > kBalanced * world_.scene.simulation.gravity.norm() &&
+           separation * separation / (2 * a) <
+               hop_limit(contact.ball, world_.position(contact.ball, now));
 }
 
 bool ExactRun::in_reach(const Contact& contact) const {
     double radius = world_.ball(contact.ball).radius;
     if (!contact.other.is_surface)
         radius = std::min(radius, world_.ball(contact.other.index).radius);
-    return -contact.depth < kLinkGap * radius;
+    if (is_coarse(contact)) return -contact.depth < kLinkGap * radius;
+    return -contact.depth <
+           kFineGap * radius + world_.touch_tolerance(contact.point, contact.point, radius);
 }
 
 /// Forms the links of these balls anew. Returns them with all that hangs on them, sorted.
@@ -66,43 +125,48 @@ std::vector<int> ExactRun::link_neighbours(std::vector<int> balls, double now) {
     return balls;
 }
 
+/// The link of a contact that lasts, as it was if it is known.
+void ExactRun::add_link(const Contact& contact, int ball, const Partner& partner,
+                        const Link* before, double now) {
+    Link link;
+    if (before != nullptr) link = *before;
+    link.partner = partner;
+    if (const Landing* landing = landing_of(contact, now); landing != nullptr && before == nullptr)
+        link.row_due = landing->row_due;
+    if (now == 0) link.from_start = true;
+    links_.of(ball).push_back(link);
+}
+
 /// A link of `before` that goes on with another surface in the same place keeps what it has stated.
 void ExactRun::link_near(int ball, double now, std::vector<Link>& before) {
-    const auto add = [&](const Partner& partner) {
-        const auto old = std::find_if(before.begin(), before.end(), [&partner](const Link& link) {
-            return link.partner == partner;
-        });
-        Link link;
-        if (old != before.end()) link = *old;
-        link.partner = partner;
-        if (now == 0) link.from_start = true;
-        links_.of(ball).push_back(link);
+    const auto known = [&before](const Partner& partner) -> const Link* {
+        const auto found = std::find_if(before.begin(), before.end(), with(partner));
+        return found == before.end() ? nullptr : &*found;
     };
     const Vec3 x = world_.position(ball, now);
     std::vector<Contact> met;
     for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
         const Contact c = world_.contact_at(ball, {true, s}, now);
-        if (stays_together(c, now)) met.push_back(c);
+        if (stays_together(c, now, known(c.other))) met.push_back(c);
     }
     merge_places(world_, x, world_.velocities(ball, now), met, 0,
                  [&](const Contact& gone, const Contact& kept) {
-                     const auto is = [](const Partner& partner) {
-                         return [&partner](const Link& link) { return link.partner == partner; };
-                     };
-                     const auto old = std::find_if(before.begin(), before.end(), is(gone.other));
+                     const auto old = std::find_if(before.begin(), before.end(), with(gone.other));
                      if (old == before.end()) return;
-                     if (std::any_of(before.begin(), before.end(), is(kept.other)))
+                     if (known(kept.other) != nullptr)
                          before.erase(old);
                      else
                          old->partner = kept.other;
                  });
-    for (const Contact& c : met) add(c.other);
+    for (const Contact& c : met) add_link(c, ball, c.other, known(c.other), now);
     world_.for_each_near(ball, [&](int other) {
         if (world_.ball(other).crowded) return;
         const double reach =
             (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(other).radius);
         if ((world_.position(other, now) - x).squaredNorm() >= reach * reach) return;
-        if (stays_together(world_.contact_at(ball, {false, other}, now), now)) add({false, other});
+        const Partner partner{false, other};
+        const Contact c = world_.contact_at(ball, partner, now);
+        if (stays_together(c, now, known(partner))) add_link(c, ball, partner, known(partner), now);
     });
 }
 
@@ -122,7 +186,7 @@ void ExactRun::note_link(Link& link, const Contact& contact, bool calm, double c
         link.candidate_since = now;
         link.candidate_steps = 0;
     }
-    if (++link.candidate_steps < kKindSteps || kind == link.stated) return;
+    if (++link.candidate_steps < kKindSteps || kind == link.stated || row_waits(link, now)) return;
     if (!link.from_start) row_of(contact, kind, now);
     link.from_start = false;
     link.stated = kind;

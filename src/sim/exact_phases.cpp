@@ -75,13 +75,26 @@ double ExactRun::hop_limit(int ball, const Vec3& position) const {
     return kLastHop * std::max(world_.ball(ball).radius, position.cwiseAbs().maxCoeff());
 }
 
+/// What gravity presses with along a normal, m/s^2; 0 where that is none, but for rounding.
+double ExactRun::pressing_gravity(const Vec3& normal) const {
+    const Vec3& g = world_.scene.simulation.gravity;
+    const double g_n = -g.dot(normal);
+    return g_n > 1e-14 * g.norm() ? g_n : 0;
+}
+
+/// The velocities with which a ball goes on in a contact whose last bounces are summed.
+Velocities ExactRun::landed(int ball, double now, const Contact& contact,
+                            const Velocities& velocities, double separation) const {
+    return without_bounces(flat_contact(world_, ball, contact), velocities, separation,
+                           slip_tolerance(ball, now, velocities));
+}
+
 /// Whether a contact that does not approach is a lasting one; `tail` [s] is how long its remaining
 /// bounces take: 2 v / (g_n (1 - e)), v the separation speed.
 bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
                      double& tail) const {
-    const double g_n = -world_.scene.simulation.gravity.dot(c.normal);
-    if (!c.other.is_surface || !(g_n > 1e-14 * world_.scene.simulation.gravity.norm()))
-        return false;
+    const double g_n = pressing_gravity(c.normal);
+    if (!c.other.is_surface || g_n == 0) return false;
     const double v = std::max(c.separation_speed, 0.0);
     tail = 0;
     if (v <= kStillFraction * speed_scale) return true;
@@ -107,24 +120,25 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
                       const std::vector<Contact>& contacts, double speed_scale, bool at_start) {
     const Contact* lasting = nullptr;
     double tail = 0;
+    bool many = false;
     for (const Contact& c : contacts) {
         double this_tail = 0;
         if (!lasts(c, ball, now, speed_scale, this_tail)) continue;
-        if (lasting != nullptr) {
-            join(ball, now, velocities);
-            return;
-        }
+        if (lasting != nullptr) many = true;
+        if (many) note_landing(*lasting, now, now + tail);
         lasting = &c;
         tail = this_tail;
+    }
+    if (many) {
+        note_landing(*lasting, now, now + tail);
+        join(ball, now, velocities);
+        return;
     }
     if (lasting != nullptr) {
         const double v = lasting->separation_speed;
         const bool bounces = std::abs(v) > kStillFraction * speed_scale;
-        const Velocities held =
-            bounces ? without_bounces(flat_contact(world_, ball, *lasting), velocities, v,
-                                      slip_tolerance(ball, now, velocities))
-                    : velocities;
-        stay(ball, now, *lasting, held, tail, at_start);
+        stay(ball, now, *lasting, bounces ? landed(ball, now, *lasting, velocities, v) : velocities,
+             tail, at_start);
         return;
     }
     if (world_.ball(ball).surface >= 0) row(now, EventKind::kLeave, ball);
@@ -149,7 +163,7 @@ void ExactRun::fly(int ball, double now, const Velocities& velocities) {
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
     b.surface = -1;
-    b.stepped = b.asleep = false;
+    b.stepped = b.asleep = b.coarse = false;
     b.phase_end = b.row_due = kInfinity;
     begin_piece(ball, now, at, world_.scene.simulation.gravity, Vec3::Zero());
 }
@@ -193,7 +207,7 @@ void ExactRun::begin_contact(int ball, double now, const Partner& surface, const
     b.surface = surface.index;
     b.kind = kind;
     b.normal = normal;
-    b.stepped = b.asleep = false;
+    b.stepped = b.asleep = b.coarse = false;
     if (b.row_due < kInfinity || at_start || same) return;
     if (tail > 0)
         b.row_due = now + tail;

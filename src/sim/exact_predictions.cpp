@@ -41,6 +41,12 @@ bool comes_first(const Partner& a, const Partner& b) {
     return a.index < b.index;
 }
 
+/// How long bounces take of which the first takes `first` seconds, the next one e times that ...
+/// Without loss they go on for ever, and there is no end to wait for.
+double series_seconds(double first, double restitution) {
+    return restitution < 1 ? first / (1 - restitution) : 0;
+}
+
 /// Two balls, one of them at least on a curved piece, which ends with its phase. As far as that is
 /// known, whatever comes before: the answer's last digits must not depend on who else was asked.
 TimeOfImpact impact_of_curved(const ExactBall& a, const ExactBall& b, double sum, bool touching,
@@ -288,9 +294,11 @@ bool ExactRun::rests_against(int ball, const Partner& partner, double now) {
 }
 
 /// What touches will go on to do so.
-void ExactRun::press(int ball, const Partner& partner, double now) {
-    Parting* parting = parting_of(world_.contact_at(ball, partner, now), now);
+void ExactRun::press(int ball, const Partner& partner, double now, double row_due) {
+    const Contact contact = world_.contact_at(ball, partner, now);
+    Parting* parting = parting_of(contact, now);
     if (parting != nullptr) parting->pressed = true;
+    note_landing(contact, now, row_due);
     join_at_once(ball, now);
 }
 
@@ -309,13 +317,16 @@ void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi,
                       double separation, double from, double now) {
     if (toi.state == ImpactState::kMiss) return;
     if (toi.state == ImpactState::kPressed) {
-        if (!rests_against(ball, partner, now)) press(ball, partner, now);
+        if (!rests_against(ball, partner, now)) press(ball, partner, now, now);
         return;
     }
     if (toi.state == ImpactState::kCapped) refuse("time of impact not found", ball, partner, now);
     if (touching && toi.s > 0) {
         const double hop = 0.25 * toi.s * separation;
-        if (hop < hop_limit(ball, world_.position(ball, from))) return press(ball, partner, now);
+        if (hop < hop_limit(ball, world_.position(ball, from))) {
+            const double e = world_.contact_at(ball, partner, from).restitution;
+            return press(ball, partner, now, from + series_seconds(toi.s, e));
+        }
     }
     Prediction& next = next_[static_cast<std::size_t>(ball)];
     const double time = std::max(from + toi.s, now);

@@ -69,6 +69,9 @@ class ExactRun {
     void resolve(const Contact& seed, double now);
     void settle(int ball, double now, const Velocities& velocities,
                 const std::vector<Contact>& contacts, double speed_scale, bool at_start);
+    double pressing_gravity(const Vec3& normal) const;
+    Velocities landed(int ball, double now, const Contact& contact, const Velocities& velocities,
+                      double separation) const;
     bool lasts(const Contact& contact, int ball, double now, double speed_scale,
                double& tail) const;
     bool approaches_at_start(int ball, const std::vector<Contact>& contacts) const;
@@ -91,7 +94,7 @@ class ExactRun {
                         const Velocities& velocities, double tail, bool at_start);
     bool go_over_seam(int ball, double now, const Velocities& velocities);
     CurvedForces choose_mode(CurvedPhase& phase, double tolerance) const;
-    void lift_off(int ball, double now, const Vec3& normal);
+    void lift_off(int ball, double now, const Partner& surface, const Vec3& normal);
     void advance(int ball, double now);
     void end_curved(int ball, double now);
     void put_at(int ball, double now, const Vec3& x);
@@ -100,7 +103,7 @@ class ExactRun {
     // Islands of lasting contacts that ODE steps: exact_islands.cpp and exact_links.cpp.
     void join(int ball, double now, const Velocities& velocities);
     bool rests_against(int ball, const Partner& partner, double now);
-    void press(int ball, const Partner& partner, double now);
+    void press(int ball, const Partner& partner, double now, double row_due);
     void join_at_once(int ball, double now);
     std::vector<Contact> linked_contacts(const std::vector<Contact>& seeds, double now) const;
     bool in_island(const Cluster& cluster) const;
@@ -108,13 +111,30 @@ class ExactRun {
     void settle_cluster(const Cluster& cluster, double now);
     void step_islands(const std::vector<int>& balls, double now);
     bool is_crowd(const std::vector<int>& island) const;
+    double step_speed(const std::vector<int>& balls) const;
+    Vec3 resting_spin(int ball, const Vec3& spin) const;
     void step_island(const std::vector<int>& balls, double now);
     bool leave_island(int ball, double now);
     void fall_asleep(const std::vector<int>& balls, double now, double calm_speed);
+    /// A bouncing series that is over, or a contact that something presses: whatever speed is left
+    /// between the two, they touch from now on.
+    struct Landing {
+        int ball = -1;
+        Partner partner;
+        double time = 0;     ///< s
+        double row_due = 0;  ///< s, the end of the series
+    };
+    void note_landing(const Contact& contact, double now, double row_due);
+    const Landing* landing_of(const Contact& contact, double now) const;
+    double next_row(const std::vector<int>& island, double now) const;
+    bool is_coarse(const Contact& contact) const;
     bool in_reach(const Contact& contact) const;
-    bool stays_together(const Contact& contact, double now);
+    bool stays_together(const Contact& contact, double now, const Link* link = nullptr);
+    bool hops_on(const Contact& contact, const Link& link, double separation, double now) const;
     std::vector<int> link_neighbours(std::vector<int> balls, double now);
     void link_near(int ball, double now, std::vector<Link>& before);
+    void add_link(const Contact& contact, int ball, const Partner& partner, const Link* before,
+                  double now);
     void note_link(Link& link, const Contact& contact, bool calm, double calm_speed, double now);
     void note_departures(int ball, const std::vector<Link>& before, double now);
     void row_of(const Contact& contact, EventKind kind, double now);
@@ -139,13 +159,16 @@ class ExactRun {
         std::vector<Contact> contacts;  ///< in the order of the system's
     };
     bool linked_system(const std::vector<int>& island, double now, LinkedIsland& is) const;
+    bool has_many_balls() const;
+    void note_parting(const Contact& contact, double now);
     void unlink(const Contact& contact, double now);
     Parting* parting_of(const Contact& contact, double now);
     bool integrate(const std::vector<int>& island, double now);
     LinkedPiece piece_of(int first_ball, double now, LinkedIsland& is, LinkedForces& forces);
     void begin_pieces(const std::vector<int>& island, double now, const LinkedIsland& is,
                       const LinkedPiece& piece, double rounding_speed);
-    bool has_slowed_down(const std::vector<int>& island, double now, double seconds);
+    bool is_at_rest(const std::vector<int>& island, const LinkedIsland& is,
+                    const LinkedForces& forces, double now, double seconds);
     void note_forces(const LinkedIsland& is, const LinkedForces& forces, bool still, double now);
 
     // Crowds: exact_crowd.cpp.
@@ -167,6 +190,8 @@ class ExactRun {
     double hop_limit(int ball, const Vec3& position) const;
     bool at_rest(int ball) const;
     bool all_at_rest();
+    std::string doing(int ball) const;
+    std::string unrest() const;
     [[noreturn]] void refuse(const std::string& what, int ball, const Partner& partner,
                              double now) const;
 
@@ -185,6 +210,7 @@ class ExactRun {
     std::map<int, CurvedPhase> curved_;      ///< by ball
     std::map<int, PieceGuess> piece_guess_;  ///< of an integrated island, by its first ball
     std::vector<Parting> partings_;          ///< of this instant, and of the ends of pieces
+    std::vector<Landing> landings_;          ///< of this instant
     std::vector<Prediction> next_;           ///< per ball
     std::int64_t events_of_grid_ = 0;
     Meeting meeting_;

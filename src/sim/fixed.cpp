@@ -14,6 +14,7 @@
 #include "sim/ode_world.h"
 #include "sim/peaks.h"
 #include "sim/recorder.h"
+#include "sim/unrest.h"
 
 namespace carom {
 
@@ -196,6 +197,22 @@ SimulationResult FixedRun::finish(double duration) {
     return result;
 }
 
+/// What moves at the end.
+std::string unrest(const Scene& scene, const Motion& motion) {
+    const Simulation& settings = scene.simulation;
+    const double rest_speed =
+        EventRules::for_steps(settings.step, settings.gravity.norm(), largest_speed(scene))
+            .rest_speed;
+    std::vector<UnrestedBall> moving;
+    for (std::size_t b = 0; b < scene.balls.size(); ++b) {
+        const BallState s = motion.balls[b].at(motion.duration);
+        const double speed = s.velocity.norm(), slip = scene.balls[b].radius * s.spin.norm();
+        if (speed > rest_speed || slip > rest_speed)
+            moving.push_back({scene.balls[b].name, "moves", speed, slip});
+    }
+    return unrest_text(moving, motion.duration);
+}
+
 }  // namespace
 
 SimulationResult simulate_fixed(const Scene& scene, const std::stop_token& stop,
@@ -217,7 +234,9 @@ SimulationResult simulate_fixed(const Scene& scene, const std::stop_token& stop,
         run.step();
         if (until_rest && run.all_at_rest()) return run.finish(std::min(run.time(), limit));
     }
-    return run.finish(limit);
+    SimulationResult result = run.finish(limit);
+    if (!settings.duration) result.report.unrest = unrest(scene, result.motion);
+    return result;
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "sim/linked_equations.h"
+#include "sim/linked_modes.h"
 #include "sim/slip_starts.h"
 
 namespace carom {
@@ -118,6 +119,27 @@ void project(const LinkedBalls& system, LinkedState& state) {
         const ContactMotion& m = at[row.contact];
         wanted[static_cast<Eigen::Index>(i)] = -row.along.dot(m.slip + m.speed * m.n);
     }
+    LinkedChange change;
+    equations.apply(equations.solve(wanted), change);
+    for (std::size_t i = 0; i < system.ball_count; ++i) {
+        state[i].v += change.linear[i];
+        state[i].w += change.spin[i];
+    }
+}
+
+void land(const LinkedBalls& system, LinkedState& state) {
+    const ContactMotions at = contact_motions(system, state);
+    LinkedBalls sliding = system;
+    const double no_slip = kNoLinkedSlip * speed_of(system, state);
+    for (std::size_t i = 0; i < sliding.contact_count; ++i) {
+        LinkedContact& c = sliding.contacts[i];
+        c.mode = c.friction > 0 && at[i].slip.norm() > no_slip ? CurvedMode::kSliding
+                                                               : CurvedMode::kSmooth;
+    }
+    const ForceEquations equations(sliding, at, Rows::kNormals, Sliding::kHeldBack);
+    ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));
+    for (std::size_t i = 0; i < equations.count(); ++i)
+        wanted[static_cast<Eigen::Index>(i)] = -at[equations.row(i).contact].speed;
     LinkedChange change;
     equations.apply(equations.solve(wanted), change);
     for (std::size_t i = 0; i < system.ball_count; ++i) {

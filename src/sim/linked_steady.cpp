@@ -18,9 +18,21 @@ bool is_parallel(const Vec3& a, const Vec3& b) {
     return a.cross(b).norm() <= kSteady * a.norm() * b.norm();
 }
 
+/// The rates of a ball's motion; what rounding of gravity left of a 0 is 0, so that it does not add
+/// up.
+Vec3 acceleration(const LinkedBalls& system, const LinkedForces& f, std::size_t ball) {
+    const Vec3& a = f.acceleration[ball];
+    return a.norm() > kSteady * system.gravity.norm() ? a : Vec3(Vec3::Zero());
+}
+Vec3 spin_rate(const LinkedBalls& system, const LinkedForces& f, std::size_t ball) {
+    const Vec3& b = f.spin_rate[ball];
+    const double rim = system.balls[ball].radius * b.norm();
+    return rim > kSteady * system.gravity.norm() ? b : Vec3(Vec3::Zero());
+}
+
 bool is_steady(const LinkedBalls& system, const LinkedState& state, const LinkedForces& f) {
     for (std::size_t b = 0; b < system.ball_count; ++b)
-        if (!is_parallel(state[b].w, f.spin_rate[b])) return false;
+        if (!is_parallel(state[b].w, spin_rate(system, f, b))) return false;
     for (std::size_t i = 0; i < system.contact_count; ++i) {
         const LinkedContact& c = system.contacts[i];
         const LinkedContactForces& at = f.contacts[i];
@@ -62,7 +74,7 @@ std::optional<LinkedPiece> steady_piece(const LinkedBalls& system, const LinkedS
         const LinkedContact& c = system.contacts[i];
         const LinkedContactForces& at = forces.contacts[i];
         const auto ball = static_cast<std::size_t>(c.ball);
-        seconds = seconds_on(c, state[ball], forces.acceleration[ball], seconds);
+        seconds = seconds_on(c, state[ball], acceleration(system, forces, ball), seconds);
         const bool slows = at.slip.dot(at.slip_rate) < 0;
         if (c.presses && c.mode == CurvedMode::kSliding && slows)
             seconds = std::min(seconds, at.slip.norm() / at.slip_rate.norm());
@@ -70,8 +82,8 @@ std::optional<LinkedPiece> steady_piece(const LinkedBalls& system, const LinkedS
     piece.seconds = (now + seconds) - now;
     if (!(piece.seconds > 0)) return {};
     for (std::size_t b = 0; b < system.ball_count; ++b) {
-        piece.balls[b].acceleration = forces.acceleration[b];
-        piece.balls[b].spin_rate = forces.spin_rate[b];
+        piece.balls[b].acceleration = acceleration(system, forces, b);
+        piece.balls[b].spin_rate = spin_rate(system, forces, b);
     }
     return piece;
 }

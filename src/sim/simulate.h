@@ -24,6 +24,8 @@ struct SimulationReport {
     std::int64_t integrated = 0;  ///< pieces of balls that act on each other, by the method exact
     std::int64_t impacts = 0;
     std::map<std::string, Effect> effects;  ///< gravity, friction, spin, pairs, ...
+    /// Of a motion until rest that ended at max_duration: what still moved. Else empty.
+    std::string unrest;
 };
 
 struct SimulationResult {
