@@ -194,7 +194,7 @@ bool ExactRun::leave_island(int ball, double now) {
         fly(ball, now, velocities);
         return true;
     }
-    if (links.size() > 1) return false;
+    if (links.size() > 1 || !links.front().partner.is_surface) return false;
     const Link link = links.front();
     const Contact contact = world_.contact_at(ball, link.partner, now);
     // It joined because it met something: where nothing else tells whether the contact presses, a
@@ -253,9 +253,9 @@ void ExactRun::step_island(const std::vector<int>& balls, double now) {
     }
     for (std::size_t i = 0; i < step.contacts().size(); ++i) {
         const Contact& c = step.contacts()[i];
+        note_push(c, step.push(i));
         for (Link& link : links_.of(c.ball)) {
             if (link.partner != c.other) continue;
-            link.push = step.push(i);
             note_link(link, c, calm, calm_speed, now);
         }
     }

@@ -257,10 +257,12 @@ void ExactRun::note_forces(const LinkedIsland& is, const LinkedForces& forces, b
         const Contact& contact = is.contacts[i];
         const LinkedContactForces& at = forces.contacts[i];
         const CurvedMode mode = is.system.contacts[i].mode;
+        const bool presses = is.system.contacts[i].presses;
+        note_push(contact, presses ? Vec3(kIslandStep * (at.push * at.normal + at.friction))
+                                   : Vec3(Vec3::Zero()));
         for (Link& link : links_.of(contact.ball)) {
             if (link.partner != contact.other) continue;
-            link.push = kIslandStep * (at.push * at.normal + at.friction);
-            link.pressed = is.system.contacts[i].presses;
+            link.pressed = presses;
             link.slip_begins = mode == CurvedMode::kIncipient;
             if (!link.pressed) continue;
             link.last = contact;

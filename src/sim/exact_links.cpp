@@ -75,9 +75,17 @@ bool ExactRun::stays_together(const Contact& contact, double now, const Link* li
     }
     if (is_coarse(contact)) return std::abs(speed) <= slow_speed(world_);
     if (std::abs(speed) <= still) return true;
-    if (!(speed > 0) || link == nullptr || !hops_on(contact, *link, speed, now)) return false;
-    note_landing(contact, now, now);
-    return true;
+    return speed > 0 && link != nullptr && hops_on(contact, *link, speed, now);
+}
+
+/// The impulse of a step on the first ball of a contact, for the links of both.
+void ExactRun::note_push(const Contact& contact, const Vec3& push) {
+    const auto note = [&](int ball, const Partner& partner) {
+        for (Link& link : links_.of(ball))
+            if (link.partner == partner) link.push = push;
+    };
+    note(contact.ball, contact.other);
+    if (!contact.other.is_surface) note(contact.other.index, {false, contact.ball});
 }
 
 /// Whether what has just separated comes back by a hop that would be summed: the force that pressed
@@ -87,7 +95,7 @@ bool ExactRun::hops_on(const Contact& contact, const Link& link, double separati
     double inverse_mass = 1 / world_.ball(contact.ball).mass;
     if (!contact.other.is_surface) inverse_mass += 1 / world_.ball(contact.other.index).mass;
     const double a = link.push.dot(contact.normal) / kIslandStep * inverse_mass;
-    return link.pressed && a > kBalanced * world_.scene.simulation.gravity.norm() &&
+    return a > kBalanced * world_.scene.simulation.gravity.norm() &&
            separation * separation / (2 * a) <
                hop_limit(contact.ball, world_.position(contact.ball, now));
 }

@@ -105,6 +105,13 @@ bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
     return true;
 }
 
+/// Whether a contact is one of the impacts that were resolved last.
+bool ExactRun::was_hit(const Contact& c) const {
+    return std::any_of(impacts_.begin(), impacts_.end(), [&c](const Contact& impact) {
+        return impact.ball == c.ball && impact.other == c.other;
+    });
+}
+
 /// Whether one of the contacts that a ball has at the start is an impact: it approaches, and faster
 /// than in the bounces that would be summed.
 bool ExactRun::approaches_at_start(int ball, const std::vector<Contact>& contacts) const {
@@ -136,7 +143,9 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
     }
     if (lasting != nullptr) {
         const double v = lasting->separation_speed;
-        const bool bounces = std::abs(v) > kStillFraction * speed_scale;
+        // What only another impact has lifted has no friction of its own to give back.
+        const bool bounces =
+            (at_start || was_hit(*lasting)) && std::abs(v) > kStillFraction * speed_scale;
         stay(ball, now, *lasting, bounces ? landed(ball, now, *lasting, velocities, v) : velocities,
              tail, at_start);
         return;

@@ -74,6 +74,7 @@ class ExactRun {
                       double separation) const;
     bool lasts(const Contact& contact, int ball, double now, double speed_scale,
                double& tail) const;
+    bool was_hit(const Contact& contact) const;
     bool approaches_at_start(int ball, const std::vector<Contact>& contacts) const;
     void hold(int ball, double now, const Contact& contact, const Velocities& velocities,
               double tail, bool at_start);
@@ -130,6 +131,7 @@ class ExactRun {
     bool is_coarse(const Contact& contact) const;
     bool in_reach(const Contact& contact) const;
     bool stays_together(const Contact& contact, double now, const Link* link = nullptr);
+    void note_push(const Contact& contact, const Vec3& push);
     bool hops_on(const Contact& contact, const Link& link, double separation, double now) const;
     std::vector<int> link_neighbours(std::vector<int> balls, double now);
     void link_near(int ball, double now, std::vector<Link>& before);
