@@ -105,11 +105,15 @@ bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
     return true;
 }
 
-/// Whether a contact is one of the impacts that were resolved last.
-bool ExactRun::was_hit(const Contact& c) const {
-    return std::any_of(impacts_.begin(), impacts_.end(), [&c](const Contact& impact) {
+/// The separation speed whose friction a contact gives back (without_bounces()): that of its own
+/// impact, as far as that one had friction. What another impact has lifted has none.
+double ExactRun::bounce_of(const Contact& c) const {
+    const auto hit = std::find_if(impacts_.begin(), impacts_.end(), [&c](const Contact& impact) {
         return impact.ball == c.ball && impact.other == c.other;
     });
+    if (hit == impacts_.end() || c.friction == 0) return 0;
+    return std::min(c.separation_speed,
+                    hit->tangential_impulse / (c.friction * world_.ball(c.ball).mass));
 }
 
 /// Whether one of the contacts that a ball has at the start is an impact: it approaches, and faster
@@ -142,10 +146,8 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
         return;
     }
     if (lasting != nullptr) {
-        const double v = lasting->separation_speed;
-        // What only another impact has lifted has no friction of its own to give back.
-        const bool bounces =
-            (at_start || was_hit(*lasting)) && std::abs(v) > kStillFraction * speed_scale;
+        const double v = at_start ? lasting->separation_speed : bounce_of(*lasting);
+        const bool bounces = std::abs(v) > kStillFraction * speed_scale;
         stay(ball, now, *lasting, bounces ? landed(ball, now, *lasting, velocities, v) : velocities,
              tail, at_start);
         return;

@@ -74,7 +74,7 @@ class ExactRun {
                       double separation) const;
     bool lasts(const Contact& contact, int ball, double now, double speed_scale,
                double& tail) const;
-    bool was_hit(const Contact& contact) const;
+    double bounce_of(const Contact& contact) const;
     bool approaches_at_start(int ball, const std::vector<Contact>& contacts) const;
     void hold(int ball, double now, const Contact& contact, const Velocities& velocities,
               double tail, bool at_start);
