@@ -11,9 +11,11 @@
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/standard_error.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
 #include "media/output_file.h"
+#include "media/output_folder.h"
 #include "report/accuracy_files.h"
 
 namespace carom {
@@ -28,20 +30,16 @@ struct AccuracyCommand {
 };
 
 /// Makes the folder if need be, and refuses what may not be replaced.
-void prepare(const AccuracyCommand& command) {
-    require_gnuplot();
-    std::error_code error;
-    std::filesystem::create_directories(command.folder, error);
-    if (error)
-        throw Failure(FailureKind::kOutput,
-                      fmt::format("making the folder {}: {}", command.folder, error.message()));
+void prepare(const AccuracyCommand& command, const Interrupt& interrupt) {
+    require_gnuplot(interrupt.token());
+    prepare_folder(command.folder);
     for (const std::string& name : accuracy_file_names())
         require_writable((std::filesystem::path(command.folder) / name).string(),
                          command.common.overwrite);
 }
 
 int accuracy(AccuracyCommand command, const Interrupt& interrupt) {
-    prepare(command);
+    prepare(command, interrupt);
     const std::optional<Scene> scene = load_scene(command.scene, command.common);
     if (!scene) return kExitInvalidScene;
     if (scene->balls.empty())
@@ -50,9 +48,11 @@ int accuracy(AccuracyCommand command, const Interrupt& interrupt) {
     std::sort(command.measure.steps.begin(), command.measure.steps.end(), std::greater<>());
     const AccuracyReport report =
         measure_accuracy(*scene, command.measure, interrupt.token(), [&](const std::string& what) {
-            if (!command.common.quiet) fmt::print(stderr, "carom: {}\n", what);
+            interrupt.reached("while measuring " + what);
+            if (!command.common.quiet) say("carom: {}\n", what);
         });
-    write_accuracy(report, command.folder);
+    interrupt.reached("while drawing the plots");
+    write_accuracy(report, command.folder, interrupt.token());
     write_standard_output(accuracy_summary(report) + "\n");
     return kExitDone;
 }

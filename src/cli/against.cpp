@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "cli/shown_simulation.h"
+#include "cli/standard_error.h"
 #include "core/failure.h"
 
 namespace carom {
@@ -62,7 +64,7 @@ OtherSource other_source(const Scene& scene, const std::string& text,
 
 void print(const Diagnostics& diagnostics, bool quiet) {
     for (const Diagnostic& d : diagnostics.items())
-        if (!quiet || d.severity == Severity::kError) fmt::print(stderr, "{}\n", d.text());
+        if (!quiet || d.severity == Severity::kError) say("{}\n", d.text());
 }
 
 std::string run_name(const Scene& scene, const Scene& other) {
@@ -108,7 +110,7 @@ std::optional<FilmScenes> load_film_scenes(const std::string& path, const Common
     scenes.other = std::move(second.scene);
     scenes.differences = scene_differences(text, overrides, other.text, other.overrides);
     if (scenes.differences.empty() && !options.quiet)
-        fmt::print(stderr, "carom: warning: both runs are the same\n");
+        say("carom: warning: both runs are the same\n");
     return scenes;
 }
 
@@ -121,7 +123,7 @@ std::optional<SceneResult> read_other(const Scene& scene, const std::string& tex
 }
 
 std::optional<FilmedSecond> simulate_second(const FilmScenes& scenes, const Motion& first,
-                                            const std::stop_token& stop) {
+                                            const Interrupt& interrupt, ProgressMode mode) {
     if (!scenes.other) return std::nullopt;
     FilmedSecond second;
     second.run.scene = *scenes.other;
@@ -131,7 +133,8 @@ std::optional<FilmedSecond> simulate_second(const FilmScenes& scenes, const Moti
     second.run.second_name = run_name(*scenes.other, scenes.scene);
     if (second.run.first_name == second.run.second_name) second.run.second_name += " (other run)";
     check_runs(scenes.scene, second.run);
-    SimulationResult result = simulate(*scenes.other, stop);
+    SimulationResult result =
+        simulate_shown(*scenes.other, interrupt, mode, "s of the other run simulated");
     second.motion_hash = result.motion.hash();
     second.report = std::move(result.report);
     second.run.ended_s = result.motion.duration;

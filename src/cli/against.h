@@ -2,10 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "cli/interrupt.h"
 #include "cli/options.h"
 #include "render/two_runs.h"
 #include "sim/simulate.h"
@@ -49,6 +49,6 @@ struct FilmedSecond {
 
 /// Simulates the second run, if there is one, and checks that it can be shown with the first.
 std::optional<FilmedSecond> simulate_second(const FilmScenes& scenes, const Motion& first,
-                                            const std::stop_token& stop);
+                                            const Interrupt& interrupt, ProgressMode mode);
 
 }  // namespace carom

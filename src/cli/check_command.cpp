@@ -8,7 +8,9 @@
 #include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/standard_error.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
@@ -33,10 +35,13 @@ nlohmann::ordered_json diagnostic_json(const Diagnostic& d) {
             {"message", d.message}};
 }
 
-int check(const CheckOptions& options) {
+int check(const CheckOptions& options, const Interrupt& interrupt) {
     bool valid = true;
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    std::size_t checked = 0;
     for (const std::string& path : options.scenes) {
+        interrupt.check();
+        interrupt.reached(fmt::format("after {} of {} scenes", checked++, options.scenes.size()));
         const std::vector<Override> overrides = options.common.overrides();
         const std::string text = read_scene_text(path);
         SceneResult result = read_scene(text, path == "-" ? "<stdin>" : path, overrides);
@@ -53,7 +58,7 @@ int check(const CheckOptions& options) {
             if (options.json)
                 found.push_back(diagnostic_json(d));
             else if (!options.common.quiet || d.severity == Severity::kError)
-                fmt::print(stderr, "{}\n", d.text());
+                say("{}\n", d.text());
         }
         json.push_back({{"file", path},
                         {"valid", result.scene.has_value()},
@@ -94,7 +99,7 @@ int print_info(bool json) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, Run& run) {
+void add_check_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("check", "Validate scenes, print every mistake");
     auto options = std::make_shared<CheckOptions>();
     command->add_option("scenes", options->scenes, "Scene files, - for standard input")
@@ -103,7 +108,9 @@ void add_check_command(CLI::App& app, Run& run) {
     command->add_flag("--json", options->json, "Diagnostics as JSON on standard output");
     add_scene_options(*command, options->common);
     command->add_flag("-q,--quiet", options->common.quiet, "Errors only");
-    command->callback([options, &run] { run = [options] { return check(*options); }; });
+    command->callback([options, &run, &interrupt] {
+        run = [options, &interrupt] { return check(*options, interrupt); };
+    });
 }
 
 void add_schema_command(CLI::App& app, Run& run) {

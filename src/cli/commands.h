@@ -18,12 +18,12 @@ using Run = std::function<int()>;
 void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt);
-void add_check_command(CLI::App& app, Run& run);
-void add_compare_command(CLI::App& app, Run& run);
+void add_check_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_compare_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_figures_command(CLI::App& app, Run& run, const Interrupt& interrupt);
-void add_fit_command(CLI::App& app, Run& run);
+void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_schema_command(CLI::App& app, Run& run);
 void add_info_command(CLI::App& app, Run& run);
 

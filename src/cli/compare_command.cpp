@@ -10,6 +10,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/interrupt.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
 #include "media/film_reader.h"
@@ -115,14 +116,18 @@ std::set<std::string> png_names(const std::string& folder) {
     return names;
 }
 
-void compare_folders(const CompareOptions& options, Comparison& comparison) {
+void compare_folders(const CompareOptions& options, const Interrupt& interrupt,
+                     Comparison& comparison) {
     const std::set<std::string> a = png_names(options.a), b = png_names(options.b);
     if (a.empty() && b.empty())
         throw Failure(FailureKind::kInput,
                       fmt::format("{} and {} hold no .png files", options.a, options.b));
     std::set<std::string> all = a;
     all.insert(b.begin(), b.end());
+    std::size_t compared = 0;
     for (const std::string& name : all) {
+        interrupt.check();
+        interrupt.reached(fmt::format("after {} of {} pictures", compared++, all.size()));
         if (!a.contains(name) || !b.contains(name)) {
             comparison.add_missing(name);
             continue;
@@ -132,10 +137,13 @@ void compare_folders(const CompareOptions& options, Comparison& comparison) {
     }
 }
 
-void compare_films(const CompareOptions& options, Comparison& comparison) {
+void compare_films(const CompareOptions& options, const Interrupt& interrupt,
+                   Comparison& comparison) {
     FilmReader a(options.a), b(options.b);
     Image frame_a, frame_b;
     for (int k = 0;; ++k) {
+        interrupt.check();
+        interrupt.reached(fmt::format("after {} frames", k));
         const bool has_a = a.next(frame_a), has_b = b.next(frame_b);
         if (!has_a && !has_b) break;
         const std::string name = fmt::format("frame {}", k);
@@ -146,7 +154,7 @@ void compare_films(const CompareOptions& options, Comparison& comparison) {
     }
 }
 
-int compare(const CompareOptions& options) {
+int compare(const CompareOptions& options, const Interrupt& interrupt) {
     const Kind kind = kind_of(options.a);
     if (kind_of(options.b) != kind)
         throw Failure(
@@ -170,10 +178,10 @@ int compare(const CompareOptions& options) {
             comparison.add(options.a, read_png(options.a), read_png(options.b));
             break;
         case Kind::kFolder:
-            compare_folders(options, comparison);
+            compare_folders(options, interrupt, comparison);
             break;
         case Kind::kFilm:
-            compare_films(options, comparison);
+            compare_films(options, interrupt, comparison);
             break;
     }
     if (!options.difference.empty() && comparison.worst_picture().width_px > 0)
@@ -184,7 +192,7 @@ int compare(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Run& run) {
+void add_compare_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("compare", "Compare two pictures, folders or films");
     auto options = std::make_shared<CompareOptions>();
     command->add_option("a", options->a, "Picture, folder of PNGs, or film")->required();
@@ -201,7 +209,9 @@ void add_compare_command(CLI::App& app, Run& run) {
         ->check(CLI::Range(0.0, 1.0));
     command->add_flag("--json", options->json, "Result as JSON");
     command->add_flag("-y,--overwrite", options->overwrite, "Replace the picture of --diff");
-    command->callback([options, &run] { run = [options] { return compare(*options); }; });
+    command->callback([options, &run, &interrupt] {
+        run = [options, &interrupt] { return compare(*options, interrupt); };
+    });
 }
 
 }  // namespace carom

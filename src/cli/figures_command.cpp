@@ -11,8 +11,10 @@
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/standard_error.h"
 #include "core/failure.h"
 #include "media/output_file.h"
+#include "media/output_folder.h"
 #include "report/paper.h"
 #include "report/plot.h"
 
@@ -27,33 +29,30 @@ struct FiguresOptions {
 };
 
 /// Makes the folder if need be, and refuses what may not be replaced.
-void prepare(const FiguresOptions& options, const std::vector<PaperItem>& items) {
-    std::error_code error;
-    std::filesystem::create_directories(options.folder, error);
-    if (error)
-        throw Failure(FailureKind::kOutput,
-                      fmt::format("making the folder {}: {}", options.folder, error.message()));
+void prepare(const FiguresOptions& options, const std::vector<PaperItem>& items,
+             const Interrupt& interrupt) {
+    prepare_folder(options.folder);
     for (const PaperItem& item : items)
         for (const std::string& file : item.files)
             require_writable((std::filesystem::path(options.folder) / file).string(),
                              options.common.overwrite);
     if (std::any_of(items.begin(), items.end(),
                     [](const PaperItem& item) { return item.group == "plots"; }))
-        require_gnuplot();
+        require_gnuplot(interrupt.token());
 }
 
 int figures(const FiguresOptions& options, const Interrupt& interrupt) {
     const auto start = std::chrono::steady_clock::now();
     const std::vector<PaperItem> items = choose_paper_items(options.only);
-    prepare(options, items);
-    int made = 0;
+    prepare(options, items, interrupt);
+    std::size_t made = 0, files = 0;
+    for (const PaperItem& item : items) files += item.files.size();
     make_paper(items, options.folder, interrupt.token(), [&](const std::string& file) {
-        ++made;
-        if (!options.common.quiet) fmt::print(stderr, "carom: {}\n", file);
+        interrupt.reached(fmt::format("after {} of {} files", ++made, files));
+        if (!options.common.quiet) say("carom: {}\n", file);
     });
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    if (!options.common.quiet)
-        fmt::print(stderr, "carom: {} files in {:.1f} s\n", made, wall.count());
+    if (!options.common.quiet) say("carom: {} files in {:.1f} s\n", made, wall.count());
     return kExitDone;
 }
 

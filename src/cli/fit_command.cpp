@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/interrupt.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
 #include "media/output_file.h"
@@ -95,12 +96,12 @@ FitOptions fit_options(const FitCommandOptions& options, const Measurements& mea
     return result;
 }
 
-int fit(const FitCommandOptions& options) {
+int fit(const FitCommandOptions& options, const Interrupt& interrupt) {
     if (!options.plot.empty()) {
         if (!plot_format_of(options.plot))
             usage(fmt::format("-o {}: a plot is a .svg, .png or .pdf file", options.plot));
         require_writable(options.plot, options.overwrite);
-        require_gnuplot();
+        require_gnuplot(interrupt.token());
     }
     if (!is_name(options.name))
         usage(
@@ -111,7 +112,7 @@ int fit(const FitCommandOptions& options) {
     const RestitutionFit found = fit_restitution(measured, fit_options(options, measured));
     const VirtualBodyLine line =
         virtual_body_line(found.restitution, options.constant, options.velocity);
-    if (!options.plot.empty()) write_plot(fit_plot(found, line), options.plot);
+    if (!options.plot.empty()) write_plot(fit_plot(found, line), options.plot, interrupt.token());
     write_standard_output(options.json ? fit_json(found, line, options.name)
                                        : fit_text(found, line, options.name));
     return kExitDone;
@@ -145,7 +146,7 @@ void add_sources(CLI::App& command, FitCommandOptions& options) {
 
 }  // namespace
 
-void add_fit_command(CLI::App& app, Run& run) {
+void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand(
         "fit", "From measured drops to a restitution, a line (x, v), a material");
     auto options = std::make_shared<FitCommandOptions>();
@@ -162,7 +163,9 @@ void add_fit_command(CLI::App& app, Run& run) {
         ->type_name("PLOT");
     command->add_flag("-y,--overwrite", options->overwrite, "Replace the plot");
     command->add_flag("--json", options->json, "Result as JSON");
-    command->callback([options, &run] { run = [options] { return fit(*options); }; });
+    command->callback([options, &run, &interrupt] {
+        run = [options, &interrupt] { return fit(*options, interrupt); };
+    });
 }
 
 }  // namespace carom

@@ -11,12 +11,13 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/short_lived.h"
+#include "cli/shown_simulation.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
+#include "media/output_folder.h"
 #include "media/png.h"
 #include "render/offscreen.h"
 #include "render/painter.h"
-#include "sim/simulate.h"
 
 namespace carom {
 
@@ -57,7 +58,6 @@ bool matches(const GoldenOptions& options, const std::string& path, const Image&
                             100 * d.differing_fraction());
     write_standard_output(fmt::format("different: {}: {}; drawn by {}\n", path, found, renderer));
     if (!options.differences.empty()) {
-        fs::create_directories(options.differences);
         const fs::path base = fs::path(options.differences) / fs::path(path).stem();
         write_png(base.string() + ".drawn.png", drawn);
         if (d.same_size) write_png(base.string() + ".diff.png", difference_image(golden, drawn));
@@ -80,6 +80,7 @@ class Stills {
     const GoldenOptions& options_;
     const Interrupt& interrupt_;
     std::shared_ptr<DrawingContexts> contexts_;
+    int done_ = 0;
 };
 
 template <class Use>
@@ -92,9 +93,11 @@ bool Stills::for_each(const std::string& path, const Use& use) {
     if (times.empty())
         throw Failure(FailureKind::kInput,
                       fmt::format("{}: no stills: name them with film.stills or --time", path));
-    const SimulationResult simulated = simulate(*scene, interrupt_.token());
+    const ProgressMode mode = options.common.progress_mode();
+    const SimulationResult simulated = simulate_shown(*scene, interrupt_, mode);
     const std::optional<FilmedSecond> second =
-        simulate_second(*scenes, simulated.motion, interrupt_.token());
+        simulate_second(*scenes, simulated.motion, interrupt_, mode);
+    interrupt_.reached(fmt::format("after {} stills", done_));
     PainterOptions painting;
     painting.width_px = scene->film.width_px;
     painting.height_px = scene->film.height_px;
@@ -114,12 +117,15 @@ bool Stills::for_each(const std::string& path, const Use& use) {
                           fmt::format("{}: no instant {} s: the motion ends at {} s", path, time,
                                       simulated.motion.duration));
         painter.paint(time, picture);
+        interrupt_.check();
         use(golden_path(options, path, time), picture, painter.renderer());
+        interrupt_.reached(fmt::format("after {} stills", ++done_));
     }
     return true;
 }
 
 int check(const GoldenOptions& options, const Interrupt& interrupt) {
+    if (!options.differences.empty()) prepare_folder(options.differences);
     bool valid = true, same = true;
     Stills stills(options, interrupt);
     for (const std::string& scene : options.scenes)
@@ -132,11 +138,7 @@ int check(const GoldenOptions& options, const Interrupt& interrupt) {
 }
 
 int update(const GoldenOptions& options, const Interrupt& interrupt) {
-    std::error_code error;
-    fs::create_directories(options.folder, error);
-    if (error)
-        throw Failure(FailureKind::kOutput,
-                      fmt::format("making the folder {}: {}", options.folder, error.message()));
+    prepare_folder(options.folder);
     bool valid = true;
     Stills stills(options, interrupt);
     for (const std::string& scene : options.scenes)
@@ -171,7 +173,7 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
             ->allow_extra_args(false);
         add_scene_options(*action, options->common);
         add_picture_options(*action, options->common);
-        action->add_flag("-q,--quiet", options->common.quiet, "Only what differs");
+        add_progress_options(*action, options->common);
         action->callback([options, function, &run, &interrupt] {
             run = [options, function, &interrupt] { return function(*options, interrupt); };
         });

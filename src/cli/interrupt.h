@@ -1,15 +1,30 @@
-// SIGINT and SIGTERM as a stop request that the work can see, so that files are closed properly.
+// Signals that end a program, as a stop request that the work can see, so that files are closed
+// properly; and an end soon after where the work does not see it.
 #pragma once
 
 #include <atomic>
+#include <csignal>
+#include <functional>
+#include <mutex>
 #include <stop_token>
+#include <string>
 #include <thread>
 
 namespace carom {
 
-/// Make one at the start of main, before any other thread: it blocks both signals for all threads
-/// and waits for them on its own. The first signal requests a stop; a second one ends the program
-/// at once.
+/// Leaves the work after a stop request; main ends with Interrupt::exit_code().
+struct Interrupted {};
+
+/// SIGINT, SIGTERM, SIGHUP, SIGXCPU and the others that end a program from outside, but those that
+/// the parent lets it ignore (as nohup does).
+///
+/// The first one requests a stop. Work that has not ended kGrace later, be it in a driver, in a
+/// library or waiting for a reader, is left where it is: the process says how far it got, removes
+/// its temporary files and ends with 128 and the signal's number. So it does at once at the second
+/// signal. What is worth more time is for KeptWork.
+///
+/// Make one at the start of main, before any other thread: it blocks the signals for all threads
+/// and waits for them on its own. Where no thread can be made, the first signal is as the second.
 class Interrupt {
   public:
     Interrupt();
@@ -19,16 +34,36 @@ class Interrupt {
 
     std::stop_token token() const { return stop_.get_token(); }
     bool requested() const { return stop_.stop_requested(); }
-    /// 130 or 143 after the signal, for main's return.
+    /// Throws Interrupted after a request.
+    void check() const;
+    /// 128 and the signal's number, for main's return.
     int exit_code() const;
 
-  private:
-    void wait();
+    /// How far the work is, after the word "interrupted": "after 3 of 20 files". Safe from any
+    /// thread, as what follows.
+    void reached(std::string words) const;
+    /// Says that the work was interrupted, and where; once.
+    void say() const;
 
+  private:
+    friend class KeptWork;
+
+    void watch();
+    int next_signal(bool may_end);
+    void leave_work();
+    [[noreturn]] void end_now(int signal) const;
+    std::string text() const noexcept;
+
+    sigset_t watched_{};
     std::stop_source stop_;
     std::atomic<int> signal_ = 0;
     std::atomic<bool> ending_ = false;
-    std::thread thread_;
+    mutable std::atomic<bool> said_ = false;
+    mutable std::timed_mutex where_mutex_;
+    mutable std::string where_;
+    mutable std::mutex keep_mutex_;
+    mutable std::function<void()> keep_;  ///< KeptWork's, in the place of an end
+    std::thread thread_;                  ///< last: it uses all of the above
 };
 
 }  // namespace carom

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <exception>
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
+#include "cli/process_start.h"
+#include "cli/standard_error.h"
 #include "cli/standard_output.h"
 #include "core/check.h"
 #include "core/diagnostics.h"
@@ -48,9 +49,27 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
     return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
 }
 
+/// Of the exception in flight; says what went wrong.
+int exit_code_of_exception() {
+    try {
+        throw;
+    } catch (const Failure& failure) {
+        say("carom: {}\n", failure.what());
+        return exit_code_of(failure);
+    } catch (const Bug& bug) {
+        say("carom: {}\nThis is a bug in carom.\n", bug.what());
+    } catch (const std::bad_alloc&) {
+        write_standard_error("carom: out of memory\n");
+    } catch (const std::exception& error) {
+        say("carom: {}\n", error.what());
+    }
+    return kExitFailed;
+}
+
 int run_program(int argc, char** argv) {
+    let_writing_fail();
+    share_the_heap_where_it_is_limited();
     const Interrupt interrupt;
-    std::signal(SIGPIPE, SIG_IGN);
 
     CLI::App app(
         "Physically exact films of bouncing balls, from a text file, with no display.\n\n" +
@@ -62,12 +81,12 @@ int run_program(int argc, char** argv) {
     add_render_command(app, run, interrupt);
     add_still_command(app, run, interrupt);
     add_simulate_command(app, run, interrupt);
-    add_check_command(app, run);
-    add_compare_command(app, run);
+    add_check_command(app, run, interrupt);
+    add_compare_command(app, run, interrupt);
     add_golden_command(app, run, interrupt);
     add_accuracy_command(app, run, interrupt);
     add_figures_command(app, run, interrupt);
-    add_fit_command(app, run);
+    add_fit_command(app, run, interrupt);
     add_schema_command(app, run);
     add_info_command(app, run);
 
@@ -75,8 +94,8 @@ int run_program(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        fmt::print(stderr, "carom: {}{}\nRun with --help for more information.\n", error.what(),
-                   suggestion(app, argc, argv));
+        say("carom: {}{}\nRun with --help for more information.\n", error.what(),
+            suggestion(app, argc, argv));
         return kExitUsage;
     }
 
@@ -84,22 +103,10 @@ int run_program(int argc, char** argv) {
         return run();
     } catch (const ReaderGone&) {
         return kExitDone;
-    } catch (const Failure& failure) {
-        if (interrupt.requested()) {
-            fmt::print(stderr, "carom: interrupted\n");
-            return interrupt.exit_code();
-        }
-        fmt::print(stderr, "carom: {}\n", failure.what());
-        return exit_code_of(failure);
-    } catch (const Bug& bug) {
-        fmt::print(stderr, "carom: {}\nThis is a bug in carom.\n", bug.what());
-        return kExitFailed;
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "carom: out of memory\n");
-        return kExitFailed;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "carom: {}\n", error.what());
-        return kExitFailed;
+    } catch (...) {
+        if (!interrupt.requested()) return exit_code_of_exception();
+        interrupt.say();
+        return interrupt.exit_code();
     }
 }
 
@@ -107,4 +114,7 @@ int run_program(int argc, char** argv) {
 
 }  // namespace carom
 
-int main(int argc, char** argv) { return carom::run_program(argc, argv); }
+int main(int argc, char** argv) {
+    carom::open_standard_descriptors();
+    return carom::run_program(argc, argv);
+}

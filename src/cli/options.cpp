@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "cli/standard_error.h"
 #include "core/failure.h"
 
 namespace carom {
@@ -44,7 +45,7 @@ void add_output_options(CLI::App& command, CommonOptions& options) {
         ->type_name("FILE");
 }
 
-void add_talk_options(CLI::App& command, CommonOptions& options) {
+void add_progress_options(CLI::App& command, CommonOptions& options) {
     static const std::map<std::string, ProgressMode> kModes = {{"auto", ProgressMode::kAuto},
                                                                {"bar", ProgressMode::kBar},
                                                                {"plain", ProgressMode::kPlain},
@@ -52,6 +53,10 @@ void add_talk_options(CLI::App& command, CommonOptions& options) {
     command.add_option("--progress", options.progress, "auto, bar, plain or none")
         ->transform(CLI::CheckedTransformer(kModes).description("MODE"));
     command.add_flag("-q,--quiet", options.quiet, "Errors only");
+}
+
+void add_talk_options(CLI::App& command, CommonOptions& options) {
+    add_progress_options(command, options);
     command.add_flag("-v,--verbose", options.verbose, "Say more on standard error");
 }
 
@@ -59,7 +64,7 @@ std::optional<Scene> load_scene(const std::string& path, const CommonOptions& op
     SceneResult result = read_scene_file(path, options.overrides());
     for (const Diagnostic& d : result.diagnostics.items()) {
         if (options.quiet && d.severity == Severity::kWarning) continue;
-        fmt::print(stderr, "{}\n", d.text());
+        say("{}\n", d.text());
     }
     return std::move(result.scene);
 }

@@ -30,10 +30,11 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::kNone : progress; }
 };
 
-void add_scene_options(CLI::App& command, CommonOptions& options);    ///< --set
-void add_picture_options(CLI::App& command, CommonOptions& options);  ///< --size
-void add_output_options(CLI::App& command, CommonOptions& options);   ///< -y, --stats
-void add_talk_options(CLI::App& command, CommonOptions& options);     ///< --progress, -q, -v
+void add_scene_options(CLI::App& command, CommonOptions& options);     ///< --set
+void add_picture_options(CLI::App& command, CommonOptions& options);   ///< --size
+void add_output_options(CLI::App& command, CommonOptions& options);    ///< -y, --stats
+void add_progress_options(CLI::App& command, CommonOptions& options);  ///< --progress, -q
+void add_talk_options(CLI::App& command, CommonOptions& options);      ///< the same, and -v
 
 /// Reads the scene and prints its diagnostics; empty when it is invalid (exit code 3).
 std::optional<Scene> load_scene(const std::string& path, const CommonOptions& options);

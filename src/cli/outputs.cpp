@@ -10,6 +10,7 @@
 #include "cli/standard_output.h"
 #include "core/failure.h"
 #include "media/output_file.h"
+#include "media/output_folder.h"
 #include "media/threaded_sink.h"
 
 namespace carom {
@@ -84,6 +85,13 @@ void check_outputs(const std::vector<OutputRequest>& outputs,
             if (std::filesystem::exists(path)) require_writable(path, overwrite);
         }
     }
+}
+
+void prepare_folders(const std::vector<OutputRequest>& outputs) {
+    for (const OutputRequest& output : outputs)
+        if (output.path != "-" && !output.is_film())
+            prepare_folder(
+                std::filesystem::path(sequence_path(output.path, 0)).parent_path().string());
 }
 
 void check_transparency(const std::vector<OutputRequest>& outputs, const Scene& scene) {

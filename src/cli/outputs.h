@@ -32,6 +32,9 @@ struct OutputRequest {
 void check_outputs(const std::vector<OutputRequest>& outputs,
                    const std::vector<std::int64_t>& frames, bool overwrite);
 
+/// Makes the folders that frames go to, and refuses those that cannot be written into.
+void prepare_folders(const std::vector<OutputRequest>& outputs);
+
 /// Refuses a format without alpha for a scene with a transparent background.
 void check_transparency(const std::vector<OutputRequest>& outputs, const Scene& scene);
 

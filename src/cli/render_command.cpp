@@ -3,7 +3,9 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "cli/against.h"
 #include "cli/commands.h"
@@ -11,13 +13,16 @@
 #include "cli/exit_codes.h"
 #include "cli/film_plan.h"
 #include "cli/interrupt.h"
+#include "cli/kept_work.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/shown_simulation.h"
+#include "cli/standard_error.h"
+#include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
 #include "media/output_file.h"
 #include "render/painter.h"
-#include "sim/simulate.h"
 
 namespace carom {
 
@@ -47,46 +52,93 @@ std::vector<OutputRequest> requests(const RenderOptions& options) {
     return result;
 }
 
-using Sinks = std::vector<std::unique_ptr<FrameSink>>;
+/// A film on its way into all its outputs.
+class Filming {
+  public:
+    Filming(const RenderOptions& options, const Interrupt& interrupt,
+            const std::vector<std::int64_t>& frames)
+        : options_(options), interrupt_(interrupt), frames_(frames) {}
 
-/// Draws `frames` into every sink; returns how many were drawn before the end or an interrupt.
-std::int64_t film(Painter& painter, const Film& film, const std::vector<std::int64_t>& frames,
-                  const Sinks& sinks, const RenderOptions& options, const Interrupt& interrupt) {
-    Progress progress(options.common.progress_mode(), "frames",
-                      static_cast<std::int64_t>(frames.size()));
+    void open(const Scene& scene) {
+        for (const OutputRequest& output : requests(options_))
+            sinks_.push_back(open_output(output, scene, options_.encoding));
+    }
+
+    /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
+    void film(Painter& painter, const Film& film);
+
+    void add_to(Stats& stats) const {
+        for (const auto& sink : sinks_) stats.add_sink(sink->times());
+    }
+
+  private:
+    bool has_film() const;
+    void draw_all(Painter& painter, const Film& film, KeptWork* kept);
+    void keep_partial() const;
+
+    const RenderOptions& options_;
+    const Interrupt& interrupt_;
+    const std::vector<std::int64_t>& frames_;
+    std::vector<std::unique_ptr<FrameSink>> sinks_;
+    std::int64_t done_ = 0;
+};
+
+void Filming::film(Painter& painter, const Film& film) {
+    // PNGs are whole or not there; half a film must be closed to be one.
+    std::optional<KeptWork> kept;
+    if (has_film()) kept.emplace(interrupt_, [this] { keep_partial(); });
+    draw_all(painter, film, kept ? &*kept : nullptr);
+    if (done_ < static_cast<std::int64_t>(frames_.size())) {
+        keep_partial();
+        throw Interrupted{};
+    }
+    for (const auto& sink : sinks_) sink->finish();
+}
+
+bool Filming::has_film() const {
+    const std::vector<OutputRequest> all = requests(options_);
+    return std::any_of(all.begin(), all.end(),
+                       [](const OutputRequest& output) { return output.is_film(); });
+}
+
+void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
+    Progress progress(options_.common.progress_mode(), interrupt_, "frames",
+                      static_cast<std::int64_t>(frames_.size()));
     Image picture;
-    std::int64_t done = 0;
-    for (const std::int64_t frame : frames) {
-        if (interrupt.requested()) break;
-        painter.paint(frame_time(film, frame), picture);
-        for (std::size_t i = 0; i + 1 < sinks.size(); ++i) sinks[i]->write(frame, picture);
+    for (const std::int64_t frame : frames_) {
+        if (interrupt_.requested()) return;
+        const auto paint = [&] { painter.paint(frame_time(film, frame), picture); };
+        if (kept != nullptr)
+            kept->step(paint);
+        else
+            paint();
+        for (std::size_t i = 0; i + 1 < sinks_.size(); ++i) sinks_[i]->write(frame, picture);
         // The driver has compiled its shaders by now: tens of megabytes that only the compiler
         // needed go back before the encoder grows.
-        if (done == 0) malloc_trim(0);
-        sinks.back()->write_swapped(frame, picture);  // nobody else needs it: no copy
-        progress.update(++done);
+        if (done_ == 0) malloc_trim(0);
+        sinks_.back()->write_swapped(frame, picture);  // nobody else needs it: no copy
+        progress.update(static_cast<double>(++done_));
     }
-    return done;
 }
 
 /// Keeps what is playable and says how far it got.
-int keep_partial(const Sinks& sinks, std::int64_t done, std::size_t wanted,
-                 const Interrupt& interrupt) {
-    fmt::print(stderr, "carom: interrupted after {} of {} frames\n", done, wanted);
-    for (const auto& sink : sinks)
+void Filming::keep_partial() const {
+    interrupt_.reached(fmt::format("after {} of {} frames", done_, frames_.size()));
+    interrupt_.say();
+    for (const auto& sink : sinks_)
         if (const std::string kept = sink->keep_partial(); !kept.empty())
-            fmt::print(stderr, "carom: kept {}\n", kept);
-    return interrupt.exit_code();
+            say("carom: kept {}\n", kept);
 }
 
-void print_plan(const RenderOptions& options, const Scene& scene, const Motion& motion,
-                const std::vector<std::int64_t>& frames) {
-    fmt::print("{}: {} balls, {} surfaces, {} s of motion\n", scene.file, scene.balls.size(),
-               scene.surfaces.size(), motion.duration);
-    fmt::print("{} frames of {}x{} at {} frames/s, frame {} to {}\n", frames.size(),
-               scene.film.width_px, scene.film.height_px, scene.film.fps.per_second(),
-               frames.empty() ? -1 : frames.front(), frames.empty() ? -1 : frames.back());
-    for (const std::string& path : options.outputs) fmt::print("-> {}\n", path);
+std::string plan_text(const RenderOptions& options, const Scene& scene, const Motion& motion,
+                      const std::vector<std::int64_t>& frames) {
+    std::string text = fmt::format("{}: {} balls, {} surfaces, {} s of motion\n", scene.file,
+                                   scene.balls.size(), scene.surfaces.size(), motion.duration);
+    text += fmt::format("{} frames of {}x{} at {} frames/s, frame {} to {}\n", frames.size(),
+                        scene.film.width_px, scene.film.height_px, scene.film.fps.per_second(),
+                        frames.empty() ? -1 : frames.front(), frames.empty() ? -1 : frames.back());
+    for (const std::string& path : options.outputs) text += fmt::format("-> {}\n", path);
+    return text;
 }
 
 /// The number of frames before simulating, when the scene says how long it lasts.
@@ -110,13 +162,15 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     const Scene* scene = &scenes->scene;
     check_transparency(requests(options), *scene);
     check_early(options, *scene);
+    if (!options.dry_run) prepare_folders(requests(options));
 
     SimulationResult simulated;
     std::optional<FilmedSecond> second;
     {
         const CpuTimer timer(stats.sim_cpu_s);
-        simulated = simulate(*scene, interrupt.token());
-        second = simulate_second(*scenes, simulated.motion, interrupt.token());
+        const ProgressMode mode = options.common.progress_mode();
+        simulated = simulate_shown(*scene, interrupt, mode);
+        second = simulate_second(*scenes, simulated.motion, interrupt, mode);
     }
     const Motion& motion = simulated.motion;
     if (second) stats.add_second(*second);
@@ -126,32 +180,26 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
         wanted_frames(options, frame_count(scene->film, motion.duration));
     check_outputs(requests(options), frames, options.common.overwrite);
     if (options.dry_run) {
-        print_plan(options, *scene, motion, frames);
+        write_standard_output(plan_text(options, *scene, motion, frames));
         return kExitDone;
     }
 
     Painter painter(*scene, motion,
                     {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
-    if (options.common.verbose) fmt::print(stderr, "carom: {}\n", painter.renderer());
-    Sinks sinks;
-    for (const OutputRequest& output : requests(options))
-        sinks.push_back(open_output(output, *scene, options.encoding));
-
-    stats.frames = film(painter, scene->film, frames, sinks, options, interrupt);
-    if (stats.frames < static_cast<std::int64_t>(frames.size()))
-        return keep_partial(sinks, stats.frames, frames.size(), interrupt);
-    for (const auto& sink : sinks) {
-        sink->finish();
-        stats.add_sink(sink->times());
-    }
+    if (options.common.verbose) say("carom: {}\n", painter.renderer());
+    Filming filming(options, interrupt, frames);
+    filming.open(*scene);
+    filming.film(painter, scene->film);
+    stats.frames = static_cast<std::int64_t>(frames.size());
+    filming.add_to(stats);
     stats.add_painter(painter);
 
     if (!options.common.stats_path.empty())
         write_text_file(options.common.stats_path, stats_json(stats, &simulated));
     if (!options.common.quiet) {
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - stats.start;
-        fmt::print(stderr, "carom: {} frames in {:.1f} s ({:.0f} frames/s)\n", stats.frames,
-                   wall.count(), static_cast<double>(stats.frames) / wall.count());
+        say("carom: {} frames in {:.1f} s ({:.0f} frames/s)\n", stats.frames, wall.count(),
+            static_cast<double>(stats.frames) / wall.count());
     }
     return kExitDone;
 }

@@ -2,21 +2,22 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/shown_simulation.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
 #include "media/output_file.h"
+#include "media/text_file.h"
 #include "motion/csv.h"
-#include "sim/simulate.h"
 
 namespace carom {
 
@@ -31,19 +32,35 @@ struct SimulateOptions {
 };
 
 /// Runs `write` into a file that appears when whole, or into standard output for "-".
-void write_csv(const std::string& path, const std::function<void(const TextSink&)>& write) {
+void write_csv(const std::string& path, const Interrupt& interrupt,
+               const std::function<void(const TextSink&)>& write) {
     if (path == "-") {
-        write(write_standard_output);
+        write([&](std::string_view text) {
+            interrupt.check();
+            write_standard_output(text);
+        });
         return;
     }
-    OutputFile file(path);
-    std::ofstream stream(file.temporary_path(), std::ios::binary);
-    write([&stream](std::string_view text) {
-        stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    TextFile file(path);
+    write([&](std::string_view text) {
+        interrupt.check();
+        file.write(text);
     });
-    stream.close();
-    if (!stream) throw Failure(FailureKind::kOutput, fmt::format("writing {} failed", path));
     file.commit();
+}
+
+/// The motion and, where they are wanted, the events.
+void write_results(const SimulateOptions& options, const Scene& scene, const Motion& motion,
+                   const Interrupt& interrupt) {
+    write_csv(options.output, interrupt, [&](const TextSink& sink) {
+        Progress progress(options.common.progress_mode(), interrupt, "s written",
+                          std::optional(motion.duration));
+        write_motion_csv(motion, scene.film.fps.numerator, scene.film.fps.denominator, sink,
+                         [&](double time) { progress.update(time); });
+    });
+    if (options.events.empty()) return;
+    write_csv(options.events, interrupt,
+              [&](const TextSink& sink) { write_events_csv(motion, sink); });
 }
 
 /// `--rate` goes through the film's frame rate, so that both understand the same numbers.
@@ -69,21 +86,14 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
     SimulationResult simulated;
     {
         const CpuTimer timer(stats.sim_cpu_s);
-        simulated = simulate(*scene, interrupt.token());
+        simulated = simulate_shown(*scene, interrupt, options.common.progress_mode());
     }
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
 
     {
         const CpuTimer timer(stats.sinks.write_cpu_s);
-        const Motion& motion = simulated.motion;
-        const FrameRate& rate = scene->film.fps;
-        write_csv(options.output, [&](const TextSink& sink) {
-            write_motion_csv(motion, rate.numerator, rate.denominator, sink);
-        });
-        if (!options.events.empty())
-            write_csv(options.events,
-                      [&](const TextSink& sink) { write_events_csv(motion, sink); });
+        write_results(options, *scene, simulated.motion, interrupt);
     }
     if (!options.common.stats_path.empty())
         write_text_file(options.common.stats_path, stats_json(stats, &simulated));
@@ -107,7 +117,7 @@ void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->type_name("HZ");
     add_scene_options(*command, options->common);
     add_output_options(*command, options->common);
-    command->add_flag("-q,--quiet", options->common.quiet, "Errors only");
+    add_progress_options(*command, options->common);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return simulate_to_files(*options, interrupt); };
     });

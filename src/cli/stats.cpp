@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/standard_error.h"
 #include "media/versions.h"
 #include "render/versions.h"
 #include "sim/versions.h"
@@ -64,7 +65,7 @@ void Stats::add_second(const FilmedSecond& filmed) {
 
 void Stats::add_verdict(const Scene& scene, const Motion& motion, bool quiet) {
     verdict = judge_rebound(scene, motion);
-    if (verdict && !quiet) fmt::print(stderr, "carom: {}\n", verdict_text(scene, *verdict));
+    if (verdict && !quiet) say("carom: {}\n", verdict_text(scene, *verdict));
 }
 
 void Stats::warn_of_unrest(const SimulationReport& report, bool quiet) {

@@ -16,6 +16,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/short_lived.h"
+#include "cli/shown_simulation.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
@@ -23,7 +24,6 @@
 #include "media/png.h"
 #include "render/offscreen.h"
 #include "render/painter.h"
-#include "sim/simulate.h"
 
 namespace carom {
 
@@ -87,9 +87,11 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     std::optional<FilmedSecond> second;
     {
         const CpuTimer timer(stats.sim_cpu_s);
-        simulated = simulate(*scene, interrupt.token());
-        second = simulate_second(*scenes, simulated.motion, interrupt.token());
+        const ProgressMode mode = options.common.progress_mode();
+        simulated = simulate_shown(*scene, interrupt, mode);
+        second = simulate_second(*scenes, simulated.motion, interrupt, mode);
     }
+    interrupt.reached("while drawing");
     if (second) stats.add_second(*second);
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
@@ -108,7 +110,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     Painter painter(*scene, simulated.motion, painting);
     Image picture;
     painter.paint_strobe(instants(options), picture);
-    if (interrupt.requested()) return interrupt.exit_code();
+    interrupt.check();
     {
         const CpuTimer timer(stats.sinks.encode_cpu_s);
         if (options.output == "-")
@@ -145,7 +147,7 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
     add_output_options(*command, options->common);
-    command->add_flag("-q,--quiet", options->common.quiet, "Errors only");
+    add_progress_options(*command, options->common);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return still(*options, interrupt); };
     });

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/temporaries.h"
+
 namespace carom {
 
 TemporaryFolder::TemporaryFolder(FailureKind kind) {
@@ -16,16 +18,19 @@ TemporaryFolder::TemporaryFolder(FailureKind kind) {
         throw Failure(kind,
                       fmt::format("no folder for temporary files (TMPDIR): {}", error.message()));
     // mkdtemp() fills in the last six letters.
-    std::string name = (place / "carom-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-        throw Failure(kind,
-                      fmt::format("making a temporary folder {}: {}", name, std::strerror(errno)));
-    path_ = name;
+    path_ = temporaries::add([&] {
+        std::string name = (place / "carom-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Failure(
+                kind, fmt::format("making a temporary folder {}: {}", name, std::strerror(errno)));
+        return name;
+    });
 }
 
 TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
+    temporaries::forget(path_.string());
 }
 
 }  // namespace carom

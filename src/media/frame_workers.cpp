@@ -1,5 +1,6 @@
 #include "media/frame_workers.h"
 
+#include <system_error>
 #include <utility>
 
 #include "core/check.h"
@@ -10,7 +11,11 @@ FrameWorkers::FrameWorkers(int threads, int capacity, Work work)
     : capacity_(static_cast<std::size_t>(capacity)), work_(std::move(work)) {
     CAROM_CHECK(threads, >, 0);
     CAROM_CHECK(capacity, >, 0);
-    for (int i = 0; i < threads; ++i) threads_.emplace_back([this, i] { run(i); });
+    try {
+        for (int i = 0; i < threads; ++i) threads_.emplace_back([this, i] { run(i); });
+    } catch (const std::system_error&) {
+        // Those that there are do.
+    }
 }
 
 FrameWorkers::~FrameWorkers() {
@@ -24,14 +29,26 @@ FrameWorkers::~FrameWorkers() {
 }
 
 void FrameWorkers::push(std::int64_t number, const Image& frame) {
+    if (threads_.empty()) return work_here(number, frame);
     push_filled(number, [&](Image& slot) { slot = frame; });
 }
 
 void FrameWorkers::push_swapped(std::int64_t number, Image& frame) {
+    if (threads_.empty()) return work_here(number, frame);
     const int width = frame.width_px, height = frame.height_px;
     push_filled(number, [&](Image& slot) { std::swap(slot, frame); });
     // The first ones get an empty picture in exchange.
     if (frame.width_px != width || frame.height_px != height) frame = Image(width, height);
+}
+
+void FrameWorkers::work_here(std::int64_t number, const Image& frame) {
+    if (failure_) std::rethrow_exception(failure_);
+    try {
+        work_(0, number, frame);
+    } catch (...) {
+        failure_ = std::current_exception();
+        throw;
+    }
 }
 
 template <class Fill>

@@ -19,7 +19,8 @@ namespace carom {
 /// Memory: capacity + threads pictures, allocated by the first frames and used again. With one
 /// thread the frames are worked on in order; with several they begin in order. The first exception
 /// of `work` ends the work: what waits is dropped, and every later push() and drain() throws it.
-/// push() and drain() belong to one thread.
+/// push() and drain() belong to one thread. Where the system gives fewer threads there are fewer;
+/// where it gives none, push() works itself.
 class FrameWorkers {
   public:
     /// Called on the threads, `worker` 0 ... threads - 1.
@@ -42,6 +43,7 @@ class FrameWorkers {
         std::int64_t number = 0;
         Image frame;
     };
+    void work_here(std::int64_t number, const Image& frame);
     template <class Fill>
     void push_filled(std::int64_t number, const Fill& fill);
     void run(int worker);

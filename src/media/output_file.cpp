@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/failure.h"
+#include "core/temporaries.h"
 
 namespace carom {
 
@@ -120,7 +121,9 @@ OutputFile::OutputFile(std::string path)
     if (exists && S_ISDIR(info.st_mode)) fail("write", path_, EISDIR);
     // Renaming over a device would replace the device.
     in_place_ = exists && !S_ISREG(info.st_mode);
-    temporary_path_ = in_place_ ? target_path_ : create_temporary(path_, target_path_);
+    temporary_path_ =
+        in_place_ ? target_path_
+                  : temporaries::add([this] { return create_temporary(path_, target_path_); });
 }
 
 OutputFile::~OutputFile() { discard(); }
@@ -157,12 +160,16 @@ void OutputFile::publish(const std::string& target, Durability durability) {
                 fail("write", path_, errno);
         }
         if (::rename(temporary_path_.c_str(), target.c_str()) != 0) fail("write", target, errno);
+        temporaries::forget(temporary_path_);
     }
     temporary_path_.clear();
 }
 
 void OutputFile::discard() noexcept {
-    if (!temporary_path_.empty() && !in_place_) ::unlink(temporary_path_.c_str());
+    if (!temporary_path_.empty() && !in_place_) {
+        ::unlink(temporary_path_.c_str());
+        temporaries::forget(temporary_path_);
+    }
     temporary_path_.clear();
 }
 

@@ -12,6 +12,7 @@
 #include "media/frame_sink.h"
 #include "media/frame_workers.h"
 #include "media/output_file.h"
+#include "media/output_folder.h"
 #include "media/png.h"
 #include "media/thread_clock.h"
 
@@ -103,11 +104,7 @@ class PngSequence final : public FrameSink {
           folder_(fs::path(frame_path(pattern_, 0)).parent_path().string()),
           workers_(thread_count(threads), thread_count(threads),
                    [this](int, std::int64_t number, const Image& frame) { save(number, frame); }) {
-        std::error_code error;
-        if (!folder_.empty()) fs::create_directories(folder_, error);
-        if (error)
-            throw Failure(FailureKind::kOutput,
-                          fmt::format("cannot make the folder '{}': {}", folder_, error.message()));
+        prepare_folder(folder_);
     }
 
     void write(std::int64_t number, const Image& frame) override {

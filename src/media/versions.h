@@ -6,6 +6,7 @@
 
 namespace carom {
 
+/// Of a library that cannot be loaded, "none: " and why.
 std::map<std::string, std::string> media_versions();
 
 }  // namespace carom

@@ -117,19 +117,27 @@ VideoEncoder::VideoEncoder(const std::string& path, const FilmOptions& options, 
         throw Failure(FailureKind::kRun, fmt::format("cannot encode '{}': this FFmpeg has no "
                                                      "libx264",
                                                      path));
-    context_.reset(allocated(libav().avcodec_alloc_context3(codec)));
     packet_.reset(allocated(libav().av_packet_alloc()));
-    if (global_header) context_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-    x264_threads_.watch("carom-x264", [&] { open(options); });
+    const auto open_with = [&](int threads) {
+        context_.reset(allocated(libav().avcodec_alloc_context3(codec)));
+        if (global_header) context_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+        int result = 0;
+        x264_threads_.watch("carom-x264", [&] { result = open(options, threads); });
+        return result;
+    };
+    int result = open_with(options.threads > 0 ? options.threads : libav().av_cpu_count());
+    // x264 says no more than that it failed: for want of threads it does without them.
+    if (result == AVERROR_EXTERNAL && context_->thread_count > 1) result = open_with(1);
+    if (result < 0)
+        throw_libav(FailureKind::kRun, "open the H.264 encoder for", path_, result, messages);
     frame_ = make_frame(*context_);
 }
 
-void VideoEncoder::open(const FilmOptions& options) {
-    const LibavMessages messages;
+int VideoEncoder::open(const FilmOptions& options, int threads) {
     set_picture_format(*context_, options);
     set_timing(*context_, options);
     context_->flags |= AV_CODEC_FLAG_BITEXACT;
-    context_->thread_count = options.threads > 0 ? options.threads : libav().av_cpu_count();
+    context_->thread_count = threads;
 
     void* x264 = context_->priv_data;
     int result = libav().av_opt_set(x264, "preset", options.preset.c_str(), 0);
@@ -139,8 +147,7 @@ void VideoEncoder::open(const FilmOptions& options) {
         result =
             libav().av_opt_set(x264, "x264-params", encoder_settings(options.preset).c_str(), 0);
     if (result >= 0) result = libav().avcodec_open2(context_.get(), nullptr, nullptr);
-    if (result < 0)
-        throw_libav(FailureKind::kRun, "open the H.264 encoder for", path_, result, messages);
+    return result;
 }
 
 void VideoEncoder::encode(const Image& image, const TakePacket& take) {

@@ -36,7 +36,7 @@ class VideoEncoder {
     double encode_cpu_s() const;
 
   private:
-    void open(const FilmOptions& options);
+    int open(const FilmOptions& options, int threads);
     void send(const AVFrame* frame);
     void receive(const TakePacket& take);
 

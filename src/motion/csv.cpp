@@ -38,10 +38,14 @@ class Rows {
     void flush() {
         if (!buffer_.empty()) sink_(buffer_);
         buffer_.clear();
+        ++pieces_;
     }
+
+    std::int64_t pieces() const { return pieces_; }  ///< handed on so far
 
   private:
     const TextSink& sink_;
+    std::int64_t pieces_ = 0;
     std::string buffer_;
 };
 
@@ -63,8 +67,9 @@ void motion_rows(const Motion& motion, double time, Rows& rows) {
 }  // namespace
 
 void write_motion_csv(const Motion& motion, int rate_numerator, int rate_denominator,
-                      const TextSink& sink) {
+                      const TextSink& sink, const std::function<void(double)>& progress) {
     Rows rows(sink);
+    std::int64_t told = 0;
     rows.text("time,ball,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
     rows.end_row();
 
@@ -77,6 +82,9 @@ void write_motion_csv(const Motion& motion, int rate_numerator, int rate_denomin
         if (k == last && std::abs(intervals - static_cast<double>(k)) <= kSlack) break;
         const double time = static_cast<double>(k) * rate_denominator / rate_numerator;
         motion_rows(motion, time, rows);
+        if (!progress || rows.pieces() == told) continue;
+        told = rows.pieces();
+        progress(time);
     }
     motion_rows(motion, motion.duration, rows);
     rows.flush();

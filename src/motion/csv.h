@@ -13,8 +13,9 @@ using TextSink = std::function<void(std::string_view)>;
 
 /// Rows at k / rate for k = 0 ... floor(duration * rate + 1e-9), and the duration itself last.
 /// `rate` is a fraction so that 30000/1001 stays exact.
+/// `progress`, if there is any, is told now and then up to which time rows are written, in s.
 void write_motion_csv(const Motion& motion, int rate_numerator, int rate_denominator,
-                      const TextSink& sink);
+                      const TextSink& sink, const std::function<void(double)>& progress = {});
 
 void write_events_csv(const Motion& motion, const TextSink& sink);
 

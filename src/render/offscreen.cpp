@@ -4,9 +4,11 @@
 
 #include <array>
 #include <atomic>
-#include <cstdlib>
+#include <exception>
+#include <system_error>
 
 #include "core/failure.h"
+#include "render/driver_environment.h"
 #include "render/osmesa_table.h"
 
 namespace carom {
@@ -18,13 +20,6 @@ constexpr int kMajor = 3, kMinor = 3;
 
 std::atomic<bool> quick_compile = false;
 
-/// What the driver reads of the environment; once it is loaded, since a loader reads it as well.
-void set_environment() {
-    osmesa();
-    // llvmpipe leaves out optimization: a quarter of a still's time. A setting of the user's stays.
-    if (quick_compile) ::setenv("GALLIVM_PERF", "nopt", 0);
-}
-
 std::string text_of(const Gl& gl, GLenum what) {
     const GLubyte* text = gl.GetString(what);
     return text == nullptr ? std::string("unknown") : reinterpret_cast<const char*>(text);
@@ -35,7 +30,10 @@ std::string text_of(const Gl& gl, GLenum what) {
 class OffscreenContext::Impl {
   public:
     explicit Impl(OSMesaContext sharing) {
-        if (sharing == nullptr) set_environment();
+        if (sharing == nullptr) {
+            osmesa();  // a loader reads the environment as well
+            set_driver_environment(quick_compile);
+        }
         const std::array<int, 9> attributes = {OSMESA_FORMAT,
                                                OSMESA_RGBA,
                                                OSMESA_PROFILE,
@@ -53,6 +51,7 @@ class OffscreenContext::Impl {
             make_current();
             gl_ = Gl::load(osmesa().OSMesaGetProcAddress);
             check_version();
+            check_driver_threads();
         } catch (...) {
             osmesa().OSMesaDestroyContext(context_);
             throw;
@@ -96,14 +95,19 @@ class OffscreenContext::Impl {
 
 void prefer_quick_compile() { quick_compile = true; }
 
-DriverPreload::DriverPreload()
-    : thread_([] {
-          try {
-              osmesa();
-          } catch (const Failure&) {
-              // The first context says it.
-          }
-      }) {}
+DriverPreload::DriverPreload() {
+    try {
+        thread_ = std::jthread([] {
+            try {
+                osmesa();
+            } catch (const std::exception&) {
+                // The first context says it.
+            }
+        });
+    } catch (const std::system_error&) {
+        // No thread: the first context loads it.
+    }
+}
 
 OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>(nullptr)) {}
 OffscreenContext::OffscreenContext(const OffscreenContext& sharing)

@@ -16,7 +16,8 @@ namespace carom {
 void prefer_quick_compile();
 
 /// Loads the driver in another thread, which takes as long as a scene's simulation does: to be made
-/// before that. A driver that cannot be loaded is said by the first context.
+/// before that. A driver that cannot be loaded, also for want of a thread, is said by the first
+/// context.
 class DriverPreload {
   public:
     DriverPreload();

@@ -6,6 +6,7 @@
 #include <functional>
 #include <future>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,20 @@
 
 namespace carom {
 
+namespace {
+
+/// Runs `work` on a thread of its own; where there is none to be had, when its result is asked for.
+template <class Work>
+std::future<double> aside(const Work& work) {
+    try {
+        return std::async(std::launch::async, work);
+    } catch (const std::system_error&) {
+        return std::async(std::launch::deferred, work);
+    }
+}
+
+}  // namespace
+
 class Painter::Impl {
   public:
     Impl(const Scene& scene, const Motion& motion, const PainterOptions& options)
@@ -56,10 +71,12 @@ class Painter::Impl {
         std::future<double> drawn;
         std::promise<const StaticPicture*> target;
         if (!setup_.moving)
-            drawn = std::async(std::launch::async, draw_aside, std::ref(*contexts_),
-                               StaticContents{setup_.view, setup_.lights, setup_.surfaces,
-                                              setup_.scale, setup_.kind},
-                               target.get_future(), shares(options));
+            drawn = aside([this, &options, promised = target.get_future().share()] {
+                return draw_aside(
+                    *contexts_,
+                    {setup_.view, setup_.lights, setup_.surfaces, setup_.scale, setup_.kind},
+                    promised, shares(options));
+            });
 
         gl_.Disable(GL_DITHER);
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
@@ -78,6 +95,7 @@ class Painter::Impl {
         passes_->prepare(*background_);
         if (!setup_.moving) {
             draw_cpu_s_ += drawn.get();
+            context_.make_current();  // another one was, if the thread was this one
             if (static_layer.width_px != 0) background_->lay_over(static_layer);
             // For a few pictures it is not worth the while to find out.
             if (passes_->has_shadows() && !options.few_pictures)

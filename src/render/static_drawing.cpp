@@ -153,7 +153,7 @@ void StaticDrawing::draw_rectangles(GlProgram& program, const View& view, const 
 }
 
 double draw_aside(DrawingContexts& contexts, const StaticContents& contents,
-                  std::future<const StaticPicture*> target,
+                  const std::shared_future<const StaticPicture*>& target,
                   const std::function<void(const StaticPicture&)>& then) {
     const double begin = thread_cpu_s();
     if (!contexts.aside) contexts.aside.emplace(contexts.main);

@@ -69,7 +69,7 @@ struct StaticContents {
 /// for. When this returns the picture is complete and the context released; the thread's CPU
 /// seconds come back. `then`, if there is any, is called before that, with the context current.
 double draw_aside(DrawingContexts& contexts, const StaticContents& contents,
-                  std::future<const StaticPicture*> target,
+                  const std::shared_future<const StaticPicture*>& target,
                   const std::function<void(const StaticPicture&)>& then);
 
 }  // namespace carom

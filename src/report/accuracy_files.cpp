@@ -167,7 +167,8 @@ std::optional<Plot> work_precision_plot(const AccuracyReport& report, const std:
     return plot;
 }
 
-std::vector<std::string> write_accuracy(const AccuracyReport& report, const std::string& folder) {
+std::vector<std::string> write_accuracy(const AccuracyReport& report, const std::string& folder,
+                                        const std::stop_token& stop) {
     std::vector<std::string> written;
     const auto path = [&](const std::string& name) {
         written.push_back(name);
@@ -178,7 +179,7 @@ std::vector<std::string> write_accuracy(const AccuracyReport& report, const std:
     const auto draw = [&](const char* stem, const std::optional<Plot>& plot) {
         if (!plot) return;
         for (const char* extension : {".svg", ".png"})
-            write_plot(*plot, path(std::string(stem) + extension));
+            write_plot(*plot, path(std::string(stem) + extension), stop);
     };
     draw("accuracy", work_precision_plot(report, "position error / extent", position_of));
     draw("accuracy-peaks", work_precision_plot(report, "relative error of peaks", peak_of));

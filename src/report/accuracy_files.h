@@ -1,6 +1,7 @@
 // The files of `carom accuracy`: table, numbers, work-precision plots.
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ std::optional<Plot> work_precision_plot(const AccuracyReport& report, const std:
 
 /// Writes the files into `folder`, which exists; peaks are left out where the scene has none.
 /// Returns the names written.
-std::vector<std::string> write_accuracy(const AccuracyReport& report, const std::string& folder);
+std::vector<std::string> write_accuracy(const AccuracyReport& report, const std::string& folder,
+                                        const std::stop_token& stop = {});
 
 }  // namespace carom

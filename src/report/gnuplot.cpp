@@ -63,15 +63,19 @@ class SpawnSettings {
         posix_spawn_file_actions_adddup2(&actions_, error_write, STDERR_FILENO);
         posix_spawn_file_actions_addclose(&actions_, error_read);
         posix_spawn_file_actions_addclose(&actions_, error_write);
-        // Interrupts are blocked in our own threads; the child must feel them.
-        sigset_t none, pipe;
+        // Interrupts are blocked in our own threads, and failing writes are not signals: the child
+        // must feel both. gnuplot would not notice the latter.
+        sigset_t none, ours;
         sigemptyset(&none);
-        sigemptyset(&pipe);
-        sigaddset(&pipe, SIGPIPE);
+        sigemptyset(&ours);
+        sigaddset(&ours, SIGPIPE);
+        sigaddset(&ours, SIGXFSZ);
         posix_spawnattr_init(&attributes_);
         posix_spawnattr_setsigmask(&attributes_, &none);
-        posix_spawnattr_setsigdefault(&attributes_, &pipe);
-        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+        posix_spawnattr_setsigdefault(&attributes_, &ours);
+        posix_spawnattr_setpgroup(&attributes_, 0);  // a group of its own, to be ended with
+        posix_spawnattr_setflags(
+            &attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     }
     ~SpawnSettings() {
         posix_spawn_file_actions_destroy(&actions_);
@@ -87,7 +91,18 @@ class SpawnSettings {
     posix_spawnattr_t attributes_{};
 };
 
-Finished run(std::vector<std::string> arguments) {
+/// What the child says on standard error, to its end.
+std::string read_all(int descriptor) {
+    std::string text;
+    std::array<char, 4096> block{};
+    for (ssize_t n = 0; (n = read(descriptor, block.data(), block.size())) != 0;) {
+        if (n < 0 && errno != EINTR) break;
+        if (n > 0) text.append(block.data(), static_cast<std::size_t>(n));
+    }
+    return text;
+}
+
+Finished run(std::vector<std::string> arguments, const std::stop_token& stop) {
     std::array<int, 2> pipe{};
     if (pipe2(pipe.data(), O_CLOEXEC) != 0)
         fail(fmt::format("making a pipe to gnuplot: {}", std::strerror(errno)));
@@ -105,14 +120,19 @@ Finished run(std::vector<std::string> arguments) {
         fail(fmt::format("starting gnuplot: {}", std::strerror(error)));
     }
     Finished finished;
-    std::array<char, 4096> block{};
-    for (ssize_t n = 0; (n = read(pipe[0], block.data(), block.size())) != 0;) {
-        if (n < 0 && errno != EINTR) break;
-        if (n > 0) finished.errors.append(block.data(), static_cast<std::size_t>(n));
+    {
+        // Until the child is waited for nobody else has its number.
+        const std::stop_callback end_child(stop, [child] { kill(-child, SIGKILL); });
+        finished.errors = read_all(pipe[0]);
+        close(pipe[0]);
+        siginfo_t ended{};
+        while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 &&
+               errno == EINTR) {
+        }
     }
-    close(pipe[0]);
     while (waitpid(child, &finished.status, 0) < 0 && errno == EINTR) {
     }
+    if (stop.stop_requested()) fail("interrupted while gnuplot was running");
     return finished;
 }
 
@@ -143,31 +163,35 @@ std::string read_whole(const std::string& path) {
 
 }  // namespace
 
-void run_gnuplot(const std::string& script, const std::string& attempt) {
+void run_gnuplot(const std::string& script, const std::string& attempt,
+                 const std::stop_token& stop) {
     const TemporaryFolder folder(FailureKind::kRun);
     const std::string path = folder.file("script.gp");
     write_text_file(path, script, Durability::kUnsynced);
-    const Finished finished = run({"gnuplot", "-d", path});
+    const Finished finished = run({"gnuplot", "-d", path}, stop);
     if (WIFEXITED(finished.status) && WEXITSTATUS(finished.status) == 0) return;
+    if (WIFSIGNALED(finished.status) && WTERMSIG(finished.status) == SIGXFSZ)
+        throw Failure(FailureKind::kOutput,
+                      fmt::format("{}: {} (ulimit -f)", attempt, std::strerror(EFBIG)));
     if (WIFSIGNALED(finished.status))
         fail(fmt::format("{}: gnuplot was ended by signal {}", attempt, WTERMSIG(finished.status)));
     fail(fmt::format("{}: gnuplot failed: {}", attempt, finished.errors));
 }
 
-void write_plot(const Plot& plot, const std::string& path) {
+void write_plot(const Plot& plot, const std::string& path, const std::stop_token& stop) {
     const std::optional<PlotFormat> format = plot_format_of(path);
     if (!format)
         throw Failure(FailureKind::kInput,
                       fmt::format("{}: a plot is a .svg, .png or .pdf file", path));
     const TemporaryFolder folder(FailureKind::kRun);
     const std::string drawn = folder.file("plot");
-    run_gnuplot(gnuplot_script(plot, *format, drawn), "drawing " + path);
+    run_gnuplot(gnuplot_script(plot, *format, drawn), "drawing " + path, stop);
     const std::string bytes = settled(read_whole(drawn), *format);
     // gnuplot reports some errors of its terminals only as text, and writes nothing.
     if (bytes.empty()) fail(fmt::format("drawing {}: gnuplot wrote nothing", path));
     write_text_file(path, bytes, Durability::kUnsynced);
 }
 
-void require_gnuplot() { run({"gnuplot", "--version"}); }
+void require_gnuplot(const std::stop_token& stop) { run({"gnuplot", "--version"}, stop); }
 
 }  // namespace carom

@@ -1,13 +1,16 @@
 // gnuplot as a program.
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 namespace carom {
 
 /// Runs one script from start to end, without the user's own settings, in the locale C and in UTC.
 /// Throws Failure(kRun): gnuplot is missing, or `attempt` ("drawing figure4.svg") failed, with its
-/// text.
-void run_gnuplot(const std::string& script, const std::string& attempt);
+/// text; or `stop` was requested, which ends gnuplot and all that it has started. Failure(kOutput)
+/// where it may not write so much (ulimit -f).
+void run_gnuplot(const std::string& script, const std::string& attempt,
+                 const std::stop_token& stop = {});
 
 }  // namespace carom

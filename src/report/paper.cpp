@@ -97,7 +97,7 @@ void PaperMaker::make_file(const PaperItem& item, const std::string& file) {
         if (ending == ".csv")
             write_text_file(path(file), csv_text(drawn.data), Durability::kUnsynced);
         else
-            write_plot(drawn.plot, path(file));
+            write_plot(drawn.plot, path(file), stop_);
     } else if (item.group == "tables") {
         const TextTable made = table(item.name);
         write_text_file(path(file), ending == ".md" ? markdown_text(made) : csv_text(made),

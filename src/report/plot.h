@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,10 +88,11 @@ std::string gnuplot_script(const Plot& plot, PlotFormat format, const std::strin
 /// Draws the plot into `path` (.svg, .png or .pdf), whole or not at all; an existing file is
 /// replaced (ask require_writable() before the work). The same plot gives the same bytes.
 /// Throws Failure(kRun) where gnuplot is missing (with the package to install) or fails (with its
-/// text), Failure(kInput) for another extension, Failure(kOutput) where the file cannot be written.
-void write_plot(const Plot& plot, const std::string& path);
+/// text) or `stop` was requested, Failure(kInput) for another extension, Failure(kOutput) where the
+/// file cannot be written.
+void write_plot(const Plot& plot, const std::string& path, const std::stop_token& stop = {});
 
 /// Throws Failure(kRun) unless gnuplot can be started: ask before the work.
-void require_gnuplot();
+void require_gnuplot(const std::stop_token& stop = {});
 
 }  // namespace carom

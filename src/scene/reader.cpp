@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -84,8 +85,15 @@ SceneResult read_scene(std::string_view text, const std::string& file,
 }
 
 std::string read_scene_text(const std::string& path) {
-    if (path == "-") return read_bounded(std::cin);
     errno = 0;
+    if (path == "-") {
+        std::string text = read_bounded(std::cin);
+        if (std::ferror(stdin) != 0)
+            throw Failure(
+                FailureKind::kInput,
+                fmt::format("cannot read the scene from standard input: {}", std::strerror(errno)));
+        return text;
+    }
     std::ifstream stream(path, std::ios::binary);
     std::string text;
     if (stream) text = read_bounded(stream);
