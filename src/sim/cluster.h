@@ -48,12 +48,13 @@ class Cluster {
     /// gaps; the other `seeds` belong to it where they share a ball with it.
     void gather(const Contact& seed, const Seeds& seeds, double time);
 
-    /// When a cluster is resolved before nothing approaches any more. A chain of n balls needs
-    /// about n rounds; inelastic collapse would need infinitely many.
+    /// When a cluster is resolved before nothing approaches any more. Inelastic collapse would need
+    /// infinitely many rounds.
     struct Limits {
         /// m/s: what approaches no faster is left to the steps of an island, which take over then.
         double enough = 0;
-        std::size_t rounds = 2000;  ///< before what is left is solved as one inelastic contact
+        /// Before what is left is solved as one inelastic contact; 0 for rounds_to_end().
+        std::size_t rounds = 0;
     };
 
     /// Solves until nothing approaches any more. `impacts` gets one entry per pair that met: how
@@ -82,6 +83,7 @@ class Cluster {
     void touch_surfaces(int ball);
     void touch_balls(int ball);
     double approach(const Contact& contact) const;
+    std::size_t rounds_to_end() const;
     void choose(double slowest);
     void solve(ImpactSolver& solver, bool inelastic, double enough, std::vector<Contact>& impacts);
     void resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits);

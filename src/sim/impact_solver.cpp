@@ -6,6 +6,7 @@
 
 #include "core/failure.h"
 #include "sim/contact_rows.h"
+#include "sim/coulomb_impact.h"
 #include "sim/impact_sweeps.h"
 #include "sim/ode_bodies.h"
 #include "sim/ode_messages.h"
@@ -63,6 +64,7 @@ struct ImpactSolver::World {
     OdeJointGroupPtr contacts;
     OdeBodies bodies;
     std::vector<dJointFeedback> feedback;
+    std::vector<Vec3> impulses;  ///< per contact, on its ball, N s
 };
 
 ImpactSolver::ImpactSolver(SingleContacts single)
@@ -105,6 +107,7 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
                                   double time) {
     world_->bodies.place(world_->world.get(), bodies);
     world_->feedback.resize(contacts.size());
+    world_->impulses.resize(contacts.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) add_joint(contacts[i], i);
     OdeMessages messages;
     dWorldStep(world_->world.get(), kStep);
@@ -112,6 +115,7 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         Contact& c = contacts[i];
         const Vec3 impulse = kStep * from_ode(world_->feedback[i].f1);
+        world_->impulses[i] = impulse;
         c.impulse = std::max(impulse.dot(c.normal), 0.0);
         c.tangential_impulse = tangential_part(impulse, c.normal).norm();
     }
@@ -148,13 +152,17 @@ void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, Contact& c) con
 void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
                               double time) {
     before_ = bodies;
-    const bool many = contacts.size() > kMostForOde;
-    if (many || !solve_with_ode(bodies, contacts, time) ||
-        (contacts.size() > 1 && !is_solved(before_, bodies, contacts))) {
-        bodies = before_;
-        solve_by_sweeps(bodies, contacts);
-        ++sweeps_;
-    }
+    const bool several = contacts.size() > 1, many = contacts.size() > kMostForOde;
+    const bool friction = several && std::any_of(contacts.begin(), contacts.end(),
+                                                 [](const Contact& c) { return c.friction > 0; });
+    if (!many && solve_with_ode(bodies, contacts, time) &&
+        (!several || is_solved(before_, bodies, contacts)) &&
+        (!friction || obeys_friction(before_, contacts, world_->impulses)))
+        return;
+    bodies = before_;
+    if (friction && !many && solve_with_friction(bodies, contacts)) return;
+    solve_by_sweeps(bodies, contacts);
+    ++sweeps_;
 }
 
 void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,

@@ -1,9 +1,12 @@
 // Impacts of one instant. One contact has a closed form (contact_rows.h): both arms lie along its
 // normal, so that Newton's law and Coulomb's are independent. Several are solved by ODE's contact
 // joints in a world of its own: no gravity, no position correction, no constraint force mixing, so
-// that one dWorldStep is both laws to rounding. Where ODE cannot solve them at once, sweeps do
-// (impact_sweeps.h). ODE's answer to one contact is the closed form to rounding, at several times
-// the cost (tests/sim/impact_solver_test.cpp holds the two against each other).
+// that one dWorldStep is both laws to rounding, as long as friction does not act on the normal
+// impulses of others: it takes Coulomb's bounds from forces without friction, and a box for the
+// cone. Where its answer does not obey both laws, they are solved together (coulomb_impact.h, which
+// states them), and by sweeps (impact_sweeps.h) where contacts are too many, or ODE fails without
+// friction. ODE's answer to one contact is the closed form to rounding, at several times the cost
+// (tests/sim/impact_solver_test.cpp holds the two against each other).
 #pragma once
 
 #include <cstdint>
