@@ -1,40 +1,32 @@
-// One face of a font, found by fontconfig and drawn by cairo, always the same pixels.
+// The program's font at one size, drawn by cairo as filled outlines: always the same pixels.
 #pragma once
 
-#include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "render/canvas.h"
 
-struct _cairo_font_face;
-struct _cairo_scaled_font;
-
 namespace carom {
 
-inline constexpr const char* kOverlayFontFamily = "Inter";
+struct Glyph;
 
 /// Text as glyphs on a base line that starts at x = 0. Every digit takes the same width, so numbers
 /// that change do not move what stands beside them.
 struct TextRun {
-    struct Glyph {
-        unsigned long index = 0;
+    struct Place {
+        const Glyph* glyph = nullptr;
         double x_px = 0;
     };
-    std::vector<Glyph> glyphs;
+    std::vector<Place> glyphs;
     double width_px = 0;
 };
 
-/// Grey antialiasing, no hinting, no settings of the user's font configuration.
+/// Inter in weight Medium (src/render/fonts), without hinting and without any setting of the
+/// machine. Text is UTF-8; what is not, and what the font lacks, is drawn as a box.
 class Font {
   public:
-    /// The family in weight Medium at `size_px` (the em). Throws Failure(kRun) that names the
-    /// package to install if fontconfig answers with another family.
-    Font(const std::string& family, double size_px);
-    ~Font();
-    Font(Font&&) noexcept;
-    Font& operator=(Font&&) noexcept;
+    /// `size_px`: the em.
+    explicit Font(double size_px);
 
     TextRun lay_out(std::string_view utf8) const;
     double digit_width_px() const { return digit_width_px_; }
@@ -47,14 +39,6 @@ class Font {
               double halo_px = 0, const Ink& halo = {1, 1, 1, 1}) const;
 
   private:
-    struct DestroyFace {
-        void operator()(_cairo_font_face* face) const;
-    };
-    struct DestroyScaled {
-        void operator()(_cairo_scaled_font* font) const;
-    };
-    std::unique_ptr<_cairo_font_face, DestroyFace> face_;
-    std::unique_ptr<_cairo_scaled_font, DestroyScaled> scaled_;
     double size_px_ = 0;
     double digit_width_px_ = 0;
     double cap_height_px_ = 0;

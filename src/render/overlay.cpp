@@ -51,7 +51,7 @@ class OverlayPainter::Impl {
         set_ruler();
         if (wanted.clock) {
             clock_.emplace(*wanted.clock, motion.duration, view_.width_px(), view_.height_px(),
-                           kOverlayFontFamily, palette_);
+                           palette_);
             obstacles_.push_back(clock_->rect());
         }
         set_text();
@@ -59,27 +59,26 @@ class OverlayPainter::Impl {
         const Motion& curves_motion = runs.curves ? runs.beside->motion : motion;
         if (wanted.plot && !wanted.plot->balls.empty()) {
             plot_.emplace(curves_scene, curves_motion, view_.width_px(), view_.height_px(),
-                          obstacles_, palette_, kOverlayFontFamily);
+                          obstacles_, palette_);
             obstacles_.push_back(plot_->rect());
         }
         if (const auto verdict = judge_rebound(scene, motion)) {
             verdict_.emplace(scene, motion, *verdict, view_.width_px(), view_.height_px(),
-                             obstacles_, around_ruler(), kOverlayFontFamily, palette_);
+                             obstacles_, around_ruler(), palette_);
             obstacles_.push_back(verdict_->rect());
         }
         if (runs.second != nullptr) {
             OverlayAgainst::Surroundings around{around_ruler(), {}};
             if (runs.curves) around.places = ball_places(motion, *runs.second, view_);
             against_.emplace(scene, motion, *runs.second, view_.width_px(), view_.height_px(),
-                             around, kOverlayFontFamily, palette_);
+                             around, palette_);
             obstacles_.push_back(against_->rect());
         }
         if (wanted.peaks && !scene.balls.empty())
-            peaks_.emplace(scene, motion, view_, around_ruler(), palette_, kOverlayFontFamily);
+            peaks_.emplace(scene, motion, view_, around_ruler(), palette_);
         if (wanted.velocity && !scene.balls.empty())
             velocity_.emplace(scene, motion, view_, palette_);
-        if (wanted.labels && !scene.balls.empty())
-            labels_.emplace(scene, motion, view_, kOverlayFontFamily);
+        if (wanted.labels && !scene.balls.empty()) labels_.emplace(scene, motion, view_);
         if (wanted.trail && !scene.balls.empty())
             trails_.emplace(curves_scene, curves_motion, view_);
     }
@@ -97,7 +96,7 @@ class OverlayPainter::Impl {
         ruler_.reset();
         if (const auto staff = stand_ruler(ruler_scene_, ruler_motion_, view_))
             ruler_ = lay_out_ruler(*staff, view_);
-        if (ruler_ && !ruler_font_) ruler_font_.emplace(kOverlayFontFamily, ruler_font_px(view_));
+        if (ruler_ && !ruler_font_) ruler_font_.emplace(ruler_font_px(view_));
     }
 
     /// The obstacles and the ruler with its numbers.
@@ -119,8 +118,7 @@ class OverlayPainter::Impl {
     /// Title and caption.
     void set_text() {
         const auto add = [&](std::optional<OverlayText>& text, const OverlayText::Request& wish) {
-            text.emplace(wish, view_.width_px(), view_.height_px(), obstacles_, palette_,
-                         kOverlayFontFamily);
+            text.emplace(wish, view_.width_px(), view_.height_px(), obstacles_, palette_);
             obstacles_.push_back(text->rect());
         };
         const Overlay& wanted = scene_.overlay;

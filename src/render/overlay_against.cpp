@@ -77,13 +77,13 @@ std::vector<Vec2> ball_places(const Motion& motion, const SecondRun& second, con
 
 OverlayAgainst::OverlayAgainst(const Scene& first, const Motion& motion, const SecondRun& second,
                                int width_px, int height_px, const Surroundings& around,
-                               const std::string& font_family, const Palette& palette)
+                               const Palette& palette)
     : motion_(motion),
       second_(second),
       pairs_(paired_balls(first, second.scene)),
       palette_(palette),
       ghost_(ghost_ink(first.overlay.theme)),
-      font_(font_family, letters_px(kLettersPx, height_px)) {
+      font_(letters_px(kLettersPx, height_px)) {
     for (const BallPair& pair : pairs_) names_.push_back(label_text(first.balls[pair.first].name));
     constexpr double kShare = 0.4;  // of the picture's width, for paths in full
     std::vector<Line> lines = legend(false);
@@ -93,7 +93,7 @@ OverlayAgainst::OverlayAgainst(const Scene& first, const Motion& motion, const S
     const int border = whole(std::max(overlay_px(18, height_px), 5.0));
     const double most_px = width_px - 2 * border - 2 * kSide * font_.size_px();
     if (text_px > most_px) {
-        font_ = Font(font_family, font_.size_px() * most_px / text_px);
+        font_ = Font(font_.size_px() * most_px / text_px);
         text_px = most_px;
         set_columns(lines);
     }

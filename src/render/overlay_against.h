@@ -29,8 +29,7 @@ class OverlayAgainst {
     };
     /// The motions must outlive it.
     OverlayAgainst(const Scene& first, const Motion& motion, const SecondRun& second, int width_px,
-                   int height_px, const Surroundings& around, const std::string& font_family,
-                   const Palette& palette);
+                   int height_px, const Surroundings& around, const Palette& palette);
 
     void draw(double t, Image& picture) const;
     OverlayPainter::Rect rect() const { return rect_; }

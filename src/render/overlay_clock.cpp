@@ -20,9 +20,9 @@ int whole(double px) { return static_cast<int>(std::ceil(px)); }
 }  // namespace
 
 OverlayClock::OverlayClock(const ClockOptions& options, double longest_s, int width_px,
-                           int height_px, const std::string& font_family, const Palette& palette)
+                           int height_px, const Palette& palette)
     : palette_(palette), digits_(options.digits), picture_width_px_(width_px) {
-    const Font font(font_family, letters_px(kClockPx, height_px));
+    const Font font(letters_px(kClockPx, height_px));
     const double size = font.size_px();
     const Corner corner = options.corner;
     at_left_ = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;

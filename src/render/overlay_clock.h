@@ -18,7 +18,7 @@ class OverlayClock {
   public:
     /// `longest_s` is the last instant that it will show.
     OverlayClock(const ClockOptions& options, double longest_s, int width_px, int height_px,
-                 const std::string& font_family, const Palette& palette = {});
+                 const Palette& palette = {});
 
     void draw(double t, Image& picture) const;
     /// Where the widest plate of the film stands.

@@ -103,11 +103,10 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelWish>
     return places;
 }
 
-OverlayLabels::OverlayLabels(const Scene& scene, const Motion& motion, const View& view,
-                             const std::string& font_family)
+OverlayLabels::OverlayLabels(const Scene& scene, const Motion& motion, const View& view)
     : scene_(scene), motion_(motion), view_(view), palette_(palette_of(scene.overlay.theme)) {
     const double size = letters_px(scene.overlay.labels->size_px, view.height_px());
-    const Font font(font_family, size);
+    const Font font(size);
     const double halo = 0.2 * size;
     gap_px_ = 0.15 * size;
     for (const Ball& ball : scene.balls) {

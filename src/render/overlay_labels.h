@@ -48,8 +48,7 @@ std::string label_text(const std::string& name);
 class OverlayLabels {
   public:
     /// `scene`, `motion` must outlive it.
-    OverlayLabels(const Scene& scene, const Motion& motion, const View& view,
-                  const std::string& font_family);
+    OverlayLabels(const Scene& scene, const Motion& motion, const View& view);
 
     void set_view(const View& view) { view_ = view; }  ///< of the same size
 

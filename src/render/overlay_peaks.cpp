@@ -110,8 +110,7 @@ std::vector<PeakMark> lay_out_peaks(const Scene& scene, const Motion& motion, co
     const double step = kLeastStep * font.size_px();
     std::optional<Font> label_font;
     if (scene.overlay.labels)
-        label_font.emplace(kOverlayFontFamily,
-                           letters_px(scene.overlay.labels->size_px, view.height_px()));
+        label_font.emplace(letters_px(scene.overlay.labels->size_px, view.height_px()));
     Placer placer(view, font, taken);
     std::vector<PeakMark> marks;
     for (const auto& ranked : peaks_in_order(motion)) {
@@ -147,13 +146,12 @@ std::vector<PeakMark> lay_out_peaks(const Scene& scene, const Motion& motion, co
 }
 
 OverlayPeaks::OverlayPeaks(const Scene& scene, const Motion& motion, const View& view,
-                           const std::vector<Rect>& taken, const Palette& palette,
-                           const std::string& font_family)
+                           const std::vector<Rect>& taken, const Palette& palette)
     : scene_(scene),
       motion_(motion),
       view_(view),
       palette_(palette),
-      font_(font_family, letters_px(scene.overlay.peaks->size_px, view.height_px())),
+      font_(letters_px(scene.overlay.peaks->size_px, view.height_px())),
       marks_(lay_out_peaks(scene, motion, view, font_, taken)),
       picture_(view.width_px(), view.height_px()) {}
 

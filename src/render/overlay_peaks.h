@@ -38,8 +38,7 @@ std::vector<Vec2> silhouette(const Vec3& center, double radius, const View& view
 class OverlayPeaks {
   public:
     OverlayPeaks(const Scene& scene, const Motion& motion, const View& view,
-                 const std::vector<OverlayPainter::Rect>& taken, const Palette& palette,
-                 const std::string& font_family);
+                 const std::vector<OverlayPainter::Rect>& taken, const Palette& palette);
 
     /// Another view of the same size.
     void set_view(const View& view, const std::vector<OverlayPainter::Rect>& taken);

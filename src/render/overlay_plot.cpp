@@ -90,12 +90,11 @@ PlotAxes choose_plot_axes(const Scene& scene, const Motion& motion, double most_
 }
 
 OverlayPlot::OverlayPlot(const Scene& scene, const Motion& motion, int width_px, int height_px,
-                         const std::vector<Rect>& taken, const Palette& palette,
-                         const std::string& font_family)
+                         const std::vector<Rect>& taken, const Palette& palette)
     : scene_(scene),
       motion_(motion),
       palette_(palette),
-      font_(font_family, letters_px(kLettersPx, height_px)),
+      font_(letters_px(kLettersPx, height_px)),
       unit_(std::max(overlay_px(1, height_px), 0.55)) {
     choose_place(taken, width_px, height_px);
     const double size = font_.size_px();

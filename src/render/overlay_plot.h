@@ -32,8 +32,7 @@ class OverlayPlot {
   public:
     /// `scene` and `motion` must outlive it. Stays clear of what is `taken`.
     OverlayPlot(const Scene& scene, const Motion& motion, int width_px, int height_px,
-                const std::vector<OverlayPainter::Rect>& taken, const Palette& palette,
-                const std::string& font_family);
+                const std::vector<OverlayPainter::Rect>& taken, const Palette& palette);
 
     void draw(double t, Image& picture);
     OverlayPainter::Rect rect() const { return rect_; }

@@ -146,8 +146,7 @@ std::vector<std::string> break_lines(const Font& font, const std::string& text, 
 }
 
 OverlayText::OverlayText(const Request& request, int width_px, int height_px,
-                         const std::vector<Rect>& taken, const Palette& palette,
-                         const std::string& font_family) {
+                         const std::vector<Rect>& taken, const Palette& palette) {
     const int border = whole(std::max(overlay_px(18, height_px), 5.0));
     const double wanted = letters_px(request.size_px, height_px);
     const double smallest = std::min(wanted, std::max(0.7 * wanted, kSmallestLetters));
@@ -170,7 +169,7 @@ OverlayText::OverlayText(const Request& request, int width_px, int height_px,
     std::optional<Font> font;
     Room room;
     for (const Attempt& attempt : attempts) {
-        font.emplace(font_family, std::max(attempt.size, smallest));
+        font.emplace(std::max(attempt.size, smallest));
         const double depth = height_of(font->size_px(), attempt.most_lines);
         room = attempt.beside
                    ? room_beside(taken, width_px, height_px, border, depth, request.at_top)

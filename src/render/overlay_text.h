@@ -26,8 +26,7 @@ class OverlayText {
         bool plate = false;  ///< else letters with a halo
     };
     OverlayText(const Request& request, int width_px, int height_px,
-                const std::vector<OverlayPainter::Rect>& taken, const Palette& palette,
-                const std::string& font_family);
+                const std::vector<OverlayPainter::Rect>& taken, const Palette& palette);
 
     void draw(Image& picture) const { lay_over(picture_, rect_.x, rect_.y, picture); }
     OverlayPainter::Rect rect() const { return rect_; }

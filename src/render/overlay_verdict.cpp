@@ -128,16 +128,16 @@ OverlayVerdict::OverlayVerdict(const Scene& scene, const Motion& motion,
                                const ReboundVerdict& verdict, int width_px, int height_px,
                                const std::vector<OverlayPainter::Rect>& written,
                                const std::vector<OverlayPainter::Rect>& taken,
-                               const std::string& font_family, const Palette& palette)
+                               const Palette& palette)
     : from_s_(
           std::max(verdict.time_s,
                    motion_time(scene.film, film_time(scene.film, motion.duration) - kShown_s))) {
     const Said said = say(scene, verdict);
     const double letters = letters_px(kLettersPx, height_px);
-    const Font wanted(font_family, letters);
+    const Font wanted(letters);
     // Narrow pictures get smaller letters rather than a plate that hangs out.
     const double in_line = wanted.lay_out(said.in_one_line() + said.verdict + "mmm").width_px;
-    const Font narrow(font_family, letters * std::min(1.0, 0.96 * width_px / in_line));
+    const Font narrow(letters * std::min(1.0, 0.96 * width_px / in_line));
     plate_ = Plate(narrow, palette, verdict.passes).in_one_line(said);
 
     using Rect = OverlayPainter::Rect;

@@ -17,8 +17,7 @@ class OverlayVerdict {
     /// middle of the bottom, or in rows at a side. If there is no room at all, at the top.
     OverlayVerdict(const Scene& scene, const Motion& motion, const ReboundVerdict& verdict,
                    int width_px, int height_px, const std::vector<OverlayPainter::Rect>& written,
-                   const std::vector<OverlayPainter::Rect>& taken, const std::string& font_family,
-                   const Palette& palette = {});
+                   const std::vector<OverlayPainter::Rect>& taken, const Palette& palette = {});
 
     /// Shown in the film's last two seconds, but never before the rebound's top.
     bool shown_at(double t) const { return t >= from_s_; }

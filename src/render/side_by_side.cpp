@@ -47,7 +47,7 @@ Scene SideBySide::half_scene(const Scene& scene, bool second) const {
     half.title = run_caption(second_, second);
     // Beside a clock, paths in full have room only in wide pictures.
     constexpr double kShare = 0.62;  // of the half's width
-    const Font font(kOverlayFontFamily, letters_px(kCaptionPx, height_px_));
+    const Font font(letters_px(kCaptionPx, height_px_));
     if (font.lay_out(half.title).width_px > kShare * half_px_)
         half.title = run_caption(second_, second, true);
     if (second && half.overlay.plot) {

@@ -25,7 +25,7 @@ LIBRARY_HOME = {
     r"ode/": {"sim"},
     r"boost/numeric/odeint/": {"sim"},
     r"(GL|EGL)/": {"render"},
-    r"cairo|fontconfig/": {"render"},
+    r"cairo|freetype/": {"render"},
     r"png\.h": {"media"},
     r"lib(av|sw)\w+/": {"media"},
     r"CLI/": {"cli"},

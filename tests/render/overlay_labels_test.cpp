@@ -23,8 +23,7 @@ TEST(Labels, NeverOverlapAndStayInThePicture) {
         Sample sample = five_balls(spacing);
         sample.scene.overlay.labels = LabelOptions{};
         for (const Size& size : kSizes) {
-            const OverlayLabels labels(sample.scene, sample.motion, view_of(sample, size),
-                                       kOverlayFontFamily);
+            const OverlayLabels labels(sample.scene, sample.motion, view_of(sample, size));
             const Rect clock{10, 10, size.width / 10, size.height / 20};
             int shown = 0, frames = 0;
             for (double t = 0; t < sample.motion.duration; t += 1.0 / 60, ++frames) {
@@ -48,7 +47,7 @@ TEST(Labels, MoveWithTheirBallsAndDoNotJump) {
     Sample sample = five_balls();
     sample.scene.overlay.labels = LabelOptions{};
     const View view = view_of(sample, {1280, 720});
-    const OverlayLabels labels(sample.scene, sample.motion, view, kOverlayFontFamily);
+    const OverlayLabels labels(sample.scene, sample.motion, view);
     double worst = 0;
     for (std::size_t b = 0; b < 5; ++b) {
         Vec2 before(0, 0);
@@ -72,7 +71,7 @@ TEST(Labels, PartGraduallyWhereBallsMeet) {
     Sample sample = meeting();
     sample.scene.overlay.labels = LabelOptions{};
     const View view = view_of(sample, {1280, 720});
-    const OverlayLabels labels(sample.scene, sample.motion, view, kOverlayFontFamily);
+    const OverlayLabels labels(sample.scene, sample.motion, view);
     double worst = 0;
     std::vector<Rect> before;
     for (int k = 0; k < 240; ++k) {

@@ -35,8 +35,7 @@ Sample five_with_peaks() {
 TEST(Peaks, MarksStandWhereTheBallsTurnAndSayHowHigh) {
     const Sample sample = five_with_peaks();
     const View view = view_of(sample, {1280, 720});
-    const auto marks =
-        lay_out_peaks(sample.scene, sample.motion, view, Font(kOverlayFontFamily, 13), {});
+    const auto marks = lay_out_peaks(sample.scene, sample.motion, view, Font(13), {});
     ASSERT_GT(marks.size(), 10u);
     double worst = 0;
     int numbers = 0;
@@ -67,7 +66,7 @@ TEST(Peaks, NumbersNeverOverlap) {
     for (const Size& size : kSizes) {
         const Sample sample = five_with_peaks();
         const View view = view_of(sample, size);
-        const Font font(kOverlayFontFamily, std::max(13.0 * size.height / 720, 9.5));
+        const Font font(std::max(13.0 * size.height / 720, 9.5));
         const Rect taken{size.width / 4, 0, size.width / 4, size.height / 3};
         const auto marks = lay_out_peaks(sample.scene, sample.motion, view, font, {taken});
         int numbers = 0;
@@ -88,11 +87,11 @@ TEST(Peaks, NumbersNeverOverlap) {
 TEST(Peaks, ThePictureDependsOnTheInstantAlone) {
     const Sample sample = five_with_peaks();
     const View view = view_of(sample, {320, 180});
-    OverlayPeaks forward(sample.scene, sample.motion, view, {}, {}, kOverlayFontFamily);
+    OverlayPeaks forward(sample.scene, sample.motion, view, {}, {});
     EXPECT_TRUE(forward.update(0).empty());
     const Image nothing = forward.picture();
     for (double t = 0; t < 3; t += 0.1) forward.update(t);
-    OverlayPeaks at_once(sample.scene, sample.motion, view, {}, {}, kOverlayFontFamily);
+    OverlayPeaks at_once(sample.scene, sample.motion, view, {}, {});
     EXPECT_FALSE(at_once.update(2.9).empty());
     forward.update(2.9);
     EXPECT_NE(forward.picture(), nothing);
@@ -107,7 +106,7 @@ TEST(Peaks, ThePictureDependsOnTheInstantAlone) {
 TEST(Peaks, WhatChangedLiesInTheRectangle) {
     const Sample sample = five_with_peaks();
     const View view = view_of(sample, {640, 360});
-    OverlayPeaks peaks(sample.scene, sample.motion, view, {}, {}, kOverlayFontFamily);
+    OverlayPeaks peaks(sample.scene, sample.motion, view, {}, {});
     int changes = 0;
     for (double t = 0; t < 4; t += 1.0 / 60) {
         const Image before = peaks.picture();
@@ -139,7 +138,7 @@ TEST(Peaks, TrailsAndPeaksShareOnePicture) {
     EXPECT_EQ(film.moving_under_layer(), once.moving_under_layer());
 
     // The picture is the peaks over the trails.
-    OverlayPeaks peaks(sample.scene, sample.motion, view, {}, {}, kOverlayFontFamily);
+    OverlayPeaks peaks(sample.scene, sample.motion, view, {}, {});
     peaks.update(2);
     sample.scene.overlay.peaks.reset();
     OverlayPainter trails(sample.scene, sample.motion, view);

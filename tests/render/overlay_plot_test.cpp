@@ -97,7 +97,7 @@ TEST(Plot, StandsInItsCornerInsideAndClear) {
             const int h = size.height / 12;
             const Rect taken{size.width / 10, top ? 0 : size.height - h, 8 * size.width / 10, h};
             const OverlayPlot plot(sample.scene, sample.motion, size.width, size.height, {taken},
-                                   {}, kOverlayFontFamily);
+                                   {});
             const Rect rect = plot.rect();
             EXPECT_TRUE(inside(rect, size));
             EXPECT_FALSE(rect.overlaps(taken)) << size.width << "x" << size.height;
@@ -110,8 +110,7 @@ TEST(Plot, GrowsAndDependsOnTheInstantAlone) {
     const Sample sample = plotted(five_balls());
     const Size size{640, 360};
     const auto make = [&] {
-        return OverlayPlot(sample.scene, sample.motion, size.width, size.height, {}, {},
-                           kOverlayFontFamily);
+        return OverlayPlot(sample.scene, sample.motion, size.width, size.height, {}, {});
     };
     const auto drawn = [&](OverlayPlot& plot, double t) {
         Image picture(size.width, size.height);

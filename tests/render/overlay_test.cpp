@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/failure.h"
 #include "render/font.h"
 #include "render/overlay_clock.h"
 #include "render/overlay_ruler.h"
@@ -50,20 +49,8 @@ TEST(Overlay, DrawsWhatIsAsked) {
     EXPECT_GT(drawn(picture), 5000);
 }
 
-TEST(Font, MissingFamilyNamesThePackage) {
-    try {
-        const Font font("No Such Family", 12);
-        FAIL() << "a font was found";
-    } catch (const Failure& failure) {
-        EXPECT_EQ(failure.kind(), FailureKind::kRun);
-        const std::string text = failure.what();
-        EXPECT_NE(text.find("No Such Family"), std::string::npos) << text;
-        EXPECT_NE(text.find("fonts-inter"), std::string::npos) << text;
-    }
-}
-
 TEST(Font, EveryDigitIsEquallyWide) {
-    const Font font(kOverlayFontFamily, 17);
+    const Font font(17);
     const double width = font.lay_out("0000").width_px;
     EXPECT_GT(width, 17);
     for (const char* number : {"1111", "4444", "1789", "2305"})
@@ -78,7 +65,7 @@ TEST(Font, EveryDigitIsEquallyWide) {
 TEST(Ruler, UnitIsNeverCutOff) {
     const Sample sample = five_balls();
     const View view = view_of(sample, {320, 180});
-    const Font font(kOverlayFontFamily, ruler_font_px(view));
+    const Font font(ruler_font_px(view));
     const auto drawn = [&](double top_px) {
         RulerLayout layout;
         layout.low_px = {100, 170};
@@ -234,13 +221,12 @@ TEST(Ruler, AnEndlessStaffHasAsManyTicksAsThePictureHolds) {
 // ---- The clock ---------------------------------------------------------------------------------
 
 TEST(Clock, TextHasTheDigitsAskedFor) {
-    const OverlayClock clock(ClockOptions{Corner::kTopLeft, 2}, 12.5, 1280, 720,
-                             kOverlayFontFamily);
+    const OverlayClock clock(ClockOptions{Corner::kTopLeft, 2}, 12.5, 1280, 720);
     EXPECT_EQ(clock.text(0), "0.00");
     EXPECT_EQ(clock.text(1.25), "1.25");
     EXPECT_EQ(clock.text(12.5), "12.50");
     EXPECT_EQ(clock.text(-1e-17), "0.00");
-    const OverlayClock whole(ClockOptions{Corner::kTopLeft, 0}, 9, 1280, 720, kOverlayFontFamily);
+    const OverlayClock whole(ClockOptions{Corner::kTopLeft, 0}, 9, 1280, 720);
     EXPECT_EQ(whole.text(3.2), "3");
 }
 
@@ -257,7 +243,7 @@ std::pair<int, int> covered(const OverlayClock& clock, double t) {
 
 TEST(Clock, WidthChangesOnlyWithTheNumberOfDigits) {
     for (const Corner corner : {Corner::kTopLeft, Corner::kTopRight}) {
-        const OverlayClock clock(ClockOptions{corner, 2}, 10, 1280, 720, kOverlayFontFamily);
+        const OverlayClock clock(ClockOptions{corner, 2}, 10, 1280, 720);
         const auto first = covered(clock, 0);
         for (const double t : {1.11, 4.44, 9.99}) EXPECT_EQ(covered(clock, t), first);
         const auto [least, most] = covered(clock, 10);
@@ -269,7 +255,7 @@ TEST(Clock, WidthChangesOnlyWithTheNumberOfDigits) {
 }
 
 TEST(Clock, OnlyTheDigitThatChangesChangesPixels) {
-    const OverlayClock clock(ClockOptions{}, 4, 1280, 720, kOverlayFontFamily);
+    const OverlayClock clock(ClockOptions{}, 4, 1280, 720);
     Image before(1280, 720), after(1280, 720);
     clock.draw(1.21, before);
     clock.draw(1.27, after);
@@ -290,8 +276,7 @@ TEST(Clock, StandsInItsCorner) {
     for (const Size& size : kSizes) {
         for (const Corner corner :
              {Corner::kTopLeft, Corner::kTopRight, Corner::kBottomLeft, Corner::kBottomRight}) {
-            const OverlayClock clock(ClockOptions{corner, 3}, 4, size.width, size.height,
-                                     kOverlayFontFamily);
+            const OverlayClock clock(ClockOptions{corner, 3}, 4, size.width, size.height);
             const Rect r = clock.rect();
             EXPECT_TRUE(inside(r, size));
             const bool left = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;

@@ -21,7 +21,7 @@ const char* const kLong =
     "keeps its own share of the height";
 
 Rect clock_rect(Corner corner, const Size& size) {
-    return OverlayClock({corner, 2}, 10, size.width, size.height, kOverlayFontFamily).rect();
+    return OverlayClock({corner, 2}, 10, size.width, size.height).rect();
 }
 
 TEST(OverlayText, StaysInThePictureAndClearOfTheClock) {
@@ -33,7 +33,7 @@ TEST(OverlayText, StaysInThePictureAndClearOfTheClock) {
                 for (const bool top : {true, false}) {
                     const Rect clock = clock_rect(corner, size);
                     const OverlayText block({text, 22, top, !top}, size.width, size.height, {clock},
-                                            {}, kOverlayFontFamily);
+                                            {});
                     const Rect rect = block.rect();
                     const std::string what =
                         fmt::format("{}x{}, corner {}, '{}', {}", size.width, size.height,
@@ -52,8 +52,7 @@ TEST(OverlayText, StaysInThePictureAndClearOfTheClock) {
 TEST(OverlayText, AShortTitleStandsBesideTheClockInFullSize) {
     for (const Size& size : kSizes) {
         const Rect clock = clock_rect(Corner::kTopLeft, size);
-        const OverlayText title({kShort, 22, true, false}, size.width, size.height, {clock}, {},
-                                kOverlayFontFamily);
+        const OverlayText title({kShort, 22, true, false}, size.width, size.height, {clock}, {});
         EXPECT_EQ(title.lines(), std::vector<std::string>{kShort});
         EXPECT_EQ(title.rect().y, clock.y);
     }
@@ -61,8 +60,7 @@ TEST(OverlayText, AShortTitleStandsBesideTheClockInFullSize) {
 
 TEST(OverlayText, LongTextIsBrokenAndNothingOfItIsLost) {
     const Size size{320, 180};
-    const OverlayText caption({kLong, 15, false, true}, size.width, size.height, {}, {},
-                              kOverlayFontFamily);
+    const OverlayText caption({kLong, 15, false, true}, size.width, size.height, {}, {});
     ASSERT_GT(caption.lines().size(), 1u);
     std::string joined;
     for (const std::string& line : caption.lines()) joined += (joined.empty() ? "" : " ") + line;
@@ -73,15 +71,14 @@ TEST(OverlayText, WhatHasNoRoomEndsInAnEllipsis) {
     std::string text;
     for (int i = 0; i < 80; ++i) text += "word ";
     const Size size{160, 90};
-    const OverlayText caption({text, 15, false, true}, size.width, size.height, {}, {},
-                              kOverlayFontFamily);
+    const OverlayText caption({text, 15, false, true}, size.width, size.height, {}, {});
     EXPECT_TRUE(caption.lines().back().ends_with("\u2026")) << caption.lines().back();
     EXPECT_LE(caption.rect().height, 0.45 * size.height);
     EXPECT_TRUE(inside(caption.rect(), size));
 }
 
 TEST(OverlayText, BreaksLinesAtSpacesNewlinesAndInLongWords) {
-    const Font font(kOverlayFontFamily, 15);
+    const Font font(15);
     const double width = font.lay_out("three words here").width_px;
     EXPECT_EQ(break_lines(font, "one\ntwo", width), (std::vector<std::string>{"one", "two"}));
     EXPECT_EQ(break_lines(font, "three words here and more", width),

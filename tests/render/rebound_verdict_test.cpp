@@ -114,8 +114,7 @@ TEST(ReboundVerdict, PlateKeepsClearOfTheRuler) {
     const Rect clock{5, 5, 60, 16};
     const auto plate = [&](std::vector<Rect> taken) {
         taken.push_back(clock);
-        return OverlayVerdict(scene.scene, scene.motion, *verdict, kWidth, kHeight, {clock}, taken,
-                              kOverlayFontFamily)
+        return OverlayVerdict(scene.scene, scene.motion, *verdict, kWidth, kHeight, {clock}, taken)
             .rect();
     };
     const Rect top = plate({});

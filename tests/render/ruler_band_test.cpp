@@ -18,7 +18,7 @@ RulerLayout layout_with(const std::optional<std::array<double, 2>>& band) {
 }
 
 Image drawn(const std::optional<std::array<double, 2>>& band) {
-    return draw_ruler(layout_with(band), kView, Font(kOverlayFontFamily, ruler_font_px(kView)));
+    return draw_ruler(layout_with(band), kView, Font(ruler_font_px(kView)));
 }
 
 TEST(RulerBand, LiesBetweenItsHeights) {

@@ -258,8 +258,7 @@ TEST(OverlayAgainst, SaysTheDistanceAndWhoseItIs) {
     b.motion.balls[1].append(piece);
     SecondRun second = second_of(b);
     second.ended_s = 8;
-    const OverlayAgainst plate(a.scene, a.motion, second, kWidth, kHeight, {}, kOverlayFontFamily,
-                               {});
+    const OverlayAgainst plate(a.scene, a.motion, second, kWidth, kHeight, {}, {});
     EXPECT_EQ("Farthest apart: 0 mm", plate.distance_line(0));
     EXPECT_EQ("Farthest apart: ball1, 10.0 cm", plate.distance_line(1));
     EXPECT_EQ("Farthest apart: ball1, 90.0 cm (the other ended at 8 s)", plate.distance_line(9));
@@ -272,13 +271,12 @@ TEST(OverlayAgainst, SaysTheDistanceAndWhoseItIs) {
     EXPECT_EQ("one", run_caption(second, false));
     // Inside the picture, and off what is taken.
     const OverlayPainter::Rect corner{0, kHeight - 60, 100, 60};
-    const OverlayAgainst elsewhere(a.scene, a.motion, second, kWidth, kHeight, {{corner}, {}},
-                                   kOverlayFontFamily, {});
+    const OverlayAgainst elsewhere(a.scene, a.motion, second, kWidth, kHeight, {{corner}, {}}, {});
     EXPECT_FALSE(elsewhere.rect().overlaps(corner));
     // Of free corners, one where balls do not come.
     const OverlayAgainst free(a.scene, a.motion, second, kWidth, kHeight,
                               {{}, {{20, kHeight - 20}, {kWidth - 20, kHeight - 20}, {20, 20}}},
-                              kOverlayFontFamily, {});
+                              {});
     EXPECT_GT(free.rect().x, 10);
     EXPECT_LT(free.rect().y, kHeight / 2);
     EXPECT_GE(elsewhere.rect().x, 0);
