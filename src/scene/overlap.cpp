@@ -45,6 +45,19 @@ std::array<double, 2> extent_x(const SurfaceShape& shape) {
     return {-infinity, infinity};
 }
 
+double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
+
+/// The largest number that says where a surface is, near to a point.
+double numbers_of(const SurfaceShape& shape, const Vec3& point) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape))
+        return largest(point) + largest(sphere->center) + sphere->radius;
+    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
+        return largest(point) + largest(capsule->from) + largest(capsule->to) + capsule->radius;
+    if (const auto* box = std::get_if<BoxShape>(&shape))
+        return largest(point) + largest(box->center) + largest(box->size);
+    return largest(point) + std::abs(std::get<PlaneShape>(shape).offset_m);
+}
+
 double size_of_other(const SurfaceShape& shape, double ball_radius) {
     if (const auto* sphere = std::get_if<SphereShape>(&shape))
         return std::min(sphere->radius, ball_radius);
@@ -121,7 +134,9 @@ class BallGrid {
         const Ball& second = ball(b);
         const double depth =
             first.radius + second.radius - (first.position - second.position).norm();
-        if (depth <= kTouchingDepth * std::min(first.radius, second.radius)) return true;
+        const double rounding =
+            kPlaceRounding * (largest(first.position) + largest(second.position));
+        if (depth <= kTouchingDepth * std::min(first.radius, second.radius) + rounding) return true;
         found.push_back({std::min(a, b), std::max(a, b), depth});
         return found.size() < kMostOverlaps;
     }
@@ -152,7 +167,8 @@ class BallsByX {
             const Ball& one = scene_.balls[static_cast<std::size_t>(*ball)];
             const double distance = signed_distance(shape, one.position);
             const double depth = one.radius - distance;
-            if (depth <= kTouchingDepth * size_of_other(shape, one.radius)) continue;
+            const double rounding = kPlaceRounding * numbers_of(shape, one.position);
+            if (depth <= kTouchingDepth * size_of_other(shape, one.radius) + rounding) continue;
             const bool plane = std::holds_alternative<PlaneShape>(shape);
             found.push_back({*ball, surface, depth, plane ? std::max(-distance, 0.0) : 0.0});
             if (found.size() >= kMostOverlaps) return;

@@ -2,6 +2,7 @@
 // the bodies apart with speeds from nowhere.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "scene/scene.h"
@@ -10,6 +11,10 @@ namespace carom {
 
 /// Deeper than this, in units of the smaller radius, is an overlap; up to it bodies touch.
 inline constexpr double kTouchingDepth = 1e-9;
+
+/// Far from the origin, or where something is huge, bodies also touch up to this part of the
+/// numbers that say where they are: a depth is the difference of a few of them, each rounded.
+inline constexpr double kPlaceRounding = 8 * std::numeric_limits<double>::epsilon();
 
 struct BallOverlap {
     int first = 0, second = 0;  ///< into Scene::balls, first < second

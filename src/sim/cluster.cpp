@@ -136,14 +136,14 @@ void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
 void Cluster::touch_surfaces(int ball) {
     const Vec3 x = bodies_[index_of(ball)].position;
     const double radius = world_.ball(ball).radius;
-    for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
-        if (is_known(ball, {true, s})) continue;
+    const double far = kFar * (radius + x.cwiseAbs().maxCoeff()) + world_.place_rounding;
+    world_.for_each_surface_near(ball, x, radius + far, [&](int s) {
+        if (is_known(ball, {true, s})) return;
         // Far surfaces are the common case, as far balls are below.
-        const Nearest nearest = nearest_on_surface(x, radius, world_.surface(s).shape);
-        if (nearest.gap > kFar * (radius + x.cwiseAbs().maxCoeff())) continue;
+        if (nearest_on_surface(x, radius, world_.surface(s).shape).gap > far) return;
         const Contact contact = world_.contact_at(ball, {true, s}, time_);
         if (world_.touches(contact, time_)) add(contact);
-    }
+    });
 }
 
 void Cluster::touch_balls(int ball) {

@@ -136,11 +136,11 @@ void Crowd::add_pairs_of(int ball, double now, const Links& links, bool slept) {
         pair.from_start |= now == 0;
         pairs_.push_back(pair);
     };
-    for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
+    world_.for_each_surface_near(ball, x, body.radius + skin_, [&](int s) {
         const Surface& surface = world_.surface(s);
         if (nearest_on_surface(x, body.radius, surface.shape).gap < skin_)
             add(ball, {true, s}, surface.material);
-    }
+    });
     const auto near = [&](int other) {
         if (of(other).member && !of(other).asleep) return;
         const double reach = skin_ + body.radius + world_.ball(other).radius;

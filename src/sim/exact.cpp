@@ -46,20 +46,22 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
       meeting_(meeting_of(scene, world_.pairs, end)),
       cluster_(world_),
       seeds_(scene.balls.size()) {
+    world_.place_rounding = options.place_rounding;
     for (const Ball& b : scene.balls) motion_.ball_names.push_back(b.name);
     for (const Surface& s : scene.surfaces) motion_.surface_names.push_back(s.name);
     motion_.balls.resize(scene.balls.size());
+    if (world_.bounded_surfaces.size() >= options.surfaces_for_tree) world_.build_surface_tree();
     const int balls = static_cast<int>(scene.balls.size());
     for (int i = 0; i < balls; ++i) {
         std::vector<Contact> contacts;
         const Ball& body = world_.body(i);
         const Velocities start{body.velocity, body.spin};
-        for (int s = 0; s < static_cast<int>(scene.surfaces.size()); ++s) {
+        world_.for_each_surface_near(i, body.position, world_.reach(i), [&](int s) {
             Contact c = world_.contact_at(i, {true, s}, 0);
-            if (-c.depth > world_.touch_tolerance(body.position, c.point, body.radius)) continue;
+            if (-c.depth > world_.touch_tolerance(body.position, c.point, body.radius)) return;
             c.separation_speed = relative_velocity(c, start, {}).dot(c.normal);
             contacts.push_back(c);
-        }
+        });
         merge_places(world_, body.position, start, contacts, 0,
                      [](const Contact&, const Contact&) {});
         if (approaches_at_start(i, contacts))

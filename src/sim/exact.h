@@ -13,6 +13,11 @@ namespace carom {
 struct ExactOptions {
     /// From this many balls on a grid tells who is near whom. The motion does not depend on it.
     std::size_t balls_for_grid = 32;
+    /// From this many boxes, spheres and capsules on a tree tells which ones are near; likewise.
+    std::size_t surfaces_for_tree = 2;
+    /// m: gaps up to this may be the rounding of the coordinates that the scene came with
+    /// (nearby_origin.h), above that of the coordinates it has here.
+    double place_rounding = 0;
 };
 
 /// What it models exactly: flight; impacts with planes, boxes, spheres, capsules and balls, one or

@@ -104,9 +104,10 @@ bool ExactRun::in_reach(const Contact& contact) const {
     double radius = world_.ball(contact.ball).radius;
     if (!contact.other.is_surface)
         radius = std::min(radius, world_.ball(contact.other.index).radius);
-    if (is_coarse(contact)) return -contact.depth < kLinkGap * radius;
+    if (is_coarse(contact)) return -contact.depth < kLinkGap * radius + world_.place_rounding;
     return -contact.depth <
-           kFineGap * radius + world_.touch_tolerance(contact.point, contact.point, radius);
+           kFineGap * radius + world_.touch_tolerance(contact.point, contact.point, radius) +
+               world_.place_rounding;
 }
 
 /// Forms the links of these balls anew. Returns them with all that hangs on them, sorted.
@@ -153,10 +154,10 @@ void ExactRun::link_near(int ball, double now, std::vector<Link>& before) {
     };
     const Vec3 x = world_.position(ball, now);
     std::vector<Contact> met;
-    for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s) {
+    world_.for_each_surface_near(ball, x, world_.reach(ball), [&](int s) {
         const Contact c = world_.contact_at(ball, {true, s}, now);
         if (stays_together(c, now, known(c.other))) met.push_back(c);
-    }
+    });
     merge_places(world_, x, world_.velocities(ball, now), met, 0,
                  [&](const Contact& gone, const Contact& kept) {
                      const auto old = std::find_if(before.begin(), before.end(), with(gone.other));
@@ -170,7 +171,8 @@ void ExactRun::link_near(int ball, double now, std::vector<Link>& before) {
     world_.for_each_near(ball, [&](int other) {
         if (world_.ball(other).crowded) return;
         const double reach =
-            (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(other).radius);
+            (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(other).radius) +
+            world_.place_rounding;
         if ((world_.position(other, now) - x).squaredNorm() >= reach * reach) return;
         const Partner partner{false, other};
         const Contact c = world_.contact_at(ball, partner, now);

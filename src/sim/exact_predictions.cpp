@@ -74,8 +74,7 @@ void ExactRun::predict(int ball, double now) {
     next.time = std::min(b.phase_end, b.row_due);
     next.ball = ball;
     next.stamp = b.stamp;
-    for (int s = 0; s < static_cast<int>(world_.scene.surfaces.size()); ++s)
-        if (s != b.surface && !b.crowded) consider_surface(ball, s, now);
+    if (!b.crowded) consider_surfaces(ball, now);
     if (world_.grid && world_.grid->in_cell(ball)) {
         const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
         if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
@@ -164,6 +163,28 @@ void ExactRun::fit_grid(double now) {
 //
 // A pair is looked at from the instant on since which both have been on their pieces, not from now:
 // so the answer does not depend on when, and how often, it is asked for.
+
+/// Planes first: they are quick to look at, and what the ball meets there shortens the look ahead.
+void ExactRun::consider_surfaces(int ball, double now) {
+    const ExactBall& b = world_.ball(ball);
+    const double& found = next_[static_cast<std::size_t>(ball)].time;
+    for (const int plane : world_.planes)
+        if (plane != b.surface) consider_surface(ball, plane, now);
+    double until = std::min(found, end_);
+    if (!(until > now) || world_.bounded_surfaces.empty()) return;
+    Box3 ahead = bounds_of(world_.path(ball, now), 0, until - now);
+    const auto is_ahead = [&](int surface) {
+        if (!world_.surface_tree || b.piece.curve) return true;
+        if (found < until) {
+            until = found;
+            ahead = bounds_of(world_.path(ball, now), 0, until - now);
+        }
+        return world_.surface_tree->is_near(surface, ahead, world_.reach(ball));
+    };
+    world_.for_each_surface_ahead(ball, now, until - now, [&](int surface) {
+        if (surface != b.surface && is_ahead(surface)) consider_surface(ball, surface, now);
+    });
+}
 
 void ExactRun::consider_surface(int ball, int surface, double now) {
     const Partner partner{true, surface};
@@ -274,7 +295,8 @@ void ExactRun::consider_ball(int ball, int other, double now) {
 bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
     if (!partner.is_surface) {  // most are far apart
         const double reach =
-            (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(partner.index).radius);
+            (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(partner.index).radius) +
+            world_.place_rounding;
         const Vec3 apart = world_.position(ball, now) - world_.position(partner.index, now);
         if (apart.squaredNorm() > reach * reach) return false;
     }

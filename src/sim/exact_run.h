@@ -56,6 +56,7 @@ class ExactRun {
     void enqueue(int ball, double now);
     void change_cell(int ball, double now);
     void fit_grid(double now);
+    void consider_surfaces(int ball, double now);
     void consider_surface(int ball, int surface, double now);
     TimeOfImpact beside_held(int ball, int surface, const TimeOfImpact& toi, double from) const;
     bool is_beside_link(int ball, int surface, double now) const;

@@ -4,12 +4,18 @@
 
 #include <algorithm>
 
+#include "sim/curved_impact.h"
+
 namespace carom {
 
 namespace {
 
 /// Places are made of a few operations on numbers of their size.
 constexpr double kTouchRounding = 64 * std::numeric_limits<double>::epsilon();
+
+/// Beyond its radius a ball is looked at as far as this part of it: well above the gap of a link
+/// (island_step.h).
+constexpr double kReach = 1e-5;
 
 /// Up to this many materials all pairs of them are computed at the start.
 constexpr std::size_t kCachedMaterials = 256;
@@ -29,6 +35,9 @@ ExactWorld::ExactWorld(const Scene& s) : scene(s), pairs(s), balls(s.balls.size(
         piece.acceleration = s.simulation.gravity;
         piece.spin = body.spin;
     }
+    for (int i = 0; i < static_cast<int>(s.surfaces.size()); ++i)
+        (std::holds_alternative<PlaneShape>(surface(i).shape) ? planes : bounded_surfaces)
+            .push_back(i);
     const std::size_t materials = s.materials.size();
     if (materials <= kCachedMaterials)
         for (std::size_t a = 0; a < materials; ++a)
@@ -64,6 +73,38 @@ const std::vector<int>& ExactWorld::near(int ball_index) const {
     return list.others;
 }
 
+void ExactWorld::build_surface_tree() {
+    surface_tree.emplace(scene.surfaces);
+    clear_.resize(balls.size());
+}
+
+double ExactWorld::reach(int i) const { return (1 + kReach) * ball(i).radius + place_rounding; }
+
+/// The planes into what is near of the other surfaces, both ascending.
+void ExactWorld::merge_planes(std::vector<int>& found) const {
+    const auto others = static_cast<std::ptrdiff_t>(found.size());
+    found.insert(found.end(), planes.begin(), planes.end());
+    if (others > 0) std::sort(found.begin(), found.end());
+}
+
+void ExactWorld::find_surfaces_ahead(int i, double t, double seconds,
+                                     std::vector<int>& found) const {
+    const Piece& piece = ball(i).piece;
+    if (!piece.curve) {
+        const Path ahead = path(i, t);
+        const Box3 box = SurfaceTree::widened(bounds_of(ahead, 0, seconds), reach(i));
+        Box3& clear = clear_[static_cast<std::size_t>(i)];
+        if (clear.contains(box)) return;
+        if (surface_tree->is_clear(box))
+            clear = box;
+        else
+            surface_tree->find_along(ahead, seconds, reach(i), found);
+        return;
+    }
+    const CurvedPath curved = curved_path(piece, t, seconds);
+    surface_tree->find_near(Box3(curved.c[0]), reach(i) + curved.reach(), found);
+}
+
 Vec3 ExactWorld::position(int i, double t) const { return ball(i).piece.position_at(t); }
 
 Velocities ExactWorld::velocities(int i, double t) const {
@@ -81,7 +122,8 @@ std::string ExactWorld::name(const Partner& partner) const {
 }
 
 double ExactWorld::touch_tolerance(const Vec3& a, const Vec3& b, double size) const {
-    return kTouchRounding * (a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() + size);
+    return place_rounding +
+           kTouchRounding * (a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() + size);
 }
 
 Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {

@@ -13,6 +13,7 @@
 #include "sim/contact.h"
 #include "sim/neighbour_grid.h"
 #include "sim/restitution.h"
+#include "sim/surface_tree.h"
 #include "sim/time_of_impact.h"
 
 namespace carom {
@@ -71,6 +72,7 @@ class ExactWorld {
     Path path(int i, double t) const;
     std::string name(const Partner& partner) const;
 
+    double place_rounding = 0;  ///< m: of the places that the scene came with (ExactOptions)
     /// Two things touch when their gap is not above the rounding of their places.
     double touch_tolerance(const Vec3& a, const Vec3& b, double size) const;
     /// The contact of ball i with a partner at t, as geometry has it; of two balls, the scene's
@@ -117,7 +119,51 @@ class ExactWorld {
         __builtin_prefetch(bytes + 64);
     }
 
+    std::vector<int> planes, bounded_surfaces;  ///< the surfaces of both kinds, ascending
+    /// Empty while bounded surfaces are few: then a ball looks at all of them.
+    std::optional<SurfaceTree> surface_tree;
+
+    /// m: what is farther than this from a ball's centre is no partner of it now.
+    double reach(int i) const;
+    void build_surface_tree();
+
+    /// Calls f(surface), ascending, for every surface within `reach` of x, where ball i is now, and
+    /// maybe for more.
+    template <class F>
+    void for_each_surface_near(int i, const Vec3& x, double reach, F&& f) const {
+        if (!surface_tree) {
+            for (int s = 0; s < static_cast<int>(scene.surfaces.size()); ++s) f(s);
+            return;
+        }
+        std::vector<int>& found = next_surface_list();
+        const Box3 box = SurfaceTree::widened(Box3(x), reach);
+        if (!clear_[static_cast<std::size_t>(i)].contains(box))
+            surface_tree->find_near(Box3(x), reach, found);
+        merge_planes(found);
+        for (const int s : found) f(s);
+    }
+    /// The same for the bounded ones that ball i may come to from t on, in so many seconds on its
+    /// piece.
+    template <class F>
+    void for_each_surface_ahead(int i, double t, double seconds, F&& f) const {
+        if (!surface_tree) {
+            for (const int s : bounded_surfaces) f(s);
+            return;
+        }
+        std::vector<int>& found = next_surface_list();
+        find_surfaces_ahead(i, t, seconds, found);
+        for (const int s : found) f(s);
+    }
+
   private:
+    std::vector<int>& next_surface_list() const {
+        at_surface_list_ = (at_surface_list_ + 1) % surface_lists_.size();
+        surface_lists_[at_surface_list_].clear();
+        return surface_lists_[at_surface_list_];
+    }
+    void merge_planes(std::vector<int>& found) const;
+    void find_surfaces_ahead(int i, double t, double seconds, std::vector<int>& found) const;
+
     struct NearList {
         int ball = -1;
         std::int64_t moves = 0;  ///< of the grid, when it was made
@@ -139,6 +185,11 @@ class ExactWorld {
 
     mutable std::array<NearList, 4> lists_;  ///< the last ones, in turn
     mutable std::size_t at_list_ = 0;
+    /// Per ball, a box where no bounded surface is: that of its last flight that met none. The next
+    /// one, and what it touches in the end, most often lies inside.
+    mutable std::vector<Box3> clear_;
+    mutable std::array<std::vector<int>, 4> surface_lists_;  ///< of walks inside one another
+    mutable std::size_t at_surface_list_ = 0;
     std::vector<PairProperties> pair_cache_;  ///< materials x materials, empty if they are many
 };
 

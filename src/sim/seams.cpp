@@ -123,15 +123,16 @@ std::optional<SurfaceContact> goes_on_with(const ExactWorld& world, const Contac
     const double size = size_of_demands(world, held, v);
     CurvedContact best = feature_at(world, held, y, v);
     std::optional<SurfaceContact> found;
-    for (int s = 0; s < static_cast<int>(world.scene.surfaces.size()); ++s) {
-        if (s == held.other.index) continue;
+    const auto look = [&](int s) {
+        if (s == held.other.index) return;
         const Contact c = world.surface_contact(held.ball, s, x);
-        if (!is_in_reach(world, c, x) || !same_place(world, held, c)) continue;
+        if (!is_in_reach(world, c, x) || !same_place(world, held, c)) return;
         const CurvedContact feature = feature_at(world, c, y, v);
-        if (!holds_rather(feature, best, y, v, size)) continue;
+        if (!holds_rather(feature, best, y, v, size)) return;
         best = feature;
         found = SurfaceContact{contact_with(world, c, feature, x), feature};
-    }
+    };
+    world.for_each_surface_near(held.ball, x, world.reach(held.ball), look);
     return found;
 }
 
@@ -153,16 +154,17 @@ bool keeps_out(const ExactWorld& world, int ball, int surface, double from, doub
 
 void add_borders_of_others(const ExactWorld& world, const Contact& held, const CurvedState& at,
                            CurvedContact& feature) {
-    for (int s = 0; s < static_cast<int>(world.scene.surfaces.size()); ++s) {
-        if (s == held.other.index) continue;
+    const auto look = [&](int s) {
+        if (s == held.other.index) return;
         const Contact c = world.surface_contact(held.ball, s, at.x);
-        if (!is_in_reach(world, c, at.x) || !same_place(world, held, c)) continue;
+        if (!is_in_reach(world, c, at.x) || !same_place(world, held, c)) return;
         const CurvedContact other = feature_at(world, c, at.x, at.v);
         for (int i = 0; i < other.gate_count && feature.gate_count < kMostGates; ++i) {
             const FeatureGate& gate = other.gates[static_cast<std::size_t>(i)];
             feature.add_gate(gate.direction, gate.offset);
         }
-    }
+    };
+    world.for_each_surface_near(held.ball, at.x, world.reach(held.ball), look);
 }
 
 }  // namespace carom

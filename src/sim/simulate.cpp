@@ -2,18 +2,30 @@
 
 #include "sim/exact.h"
 #include "sim/fixed.h"
+#include "sim/nearby_origin.h"
 
 namespace carom {
 
+namespace {
+
+SimulationResult simulate_here(const Scene& scene, double place_rounding,
+                               const std::stop_token& stop, const SimulationProgress& progress) {
+    if (scene.simulation.method == Method::kFixed) return simulate_fixed(scene, stop, progress);
+    ExactOptions options;
+    options.place_rounding = place_rounding;
+    return simulate_exact(scene, stop, progress, options);
+}
+
+}  // namespace
+
 SimulationResult simulate(const Scene& scene, const std::stop_token& stop,
                           const SimulationProgress& progress) {
-    switch (scene.simulation.method) {
-        case Method::kFixed:
-            return simulate_fixed(scene, stop, progress);
-        case Method::kExact:
-            return simulate_exact(scene, stop, progress);
-    }
-    return {};
+    const Vec3 origin = nearby_origin(scene);
+    if (origin.isZero(0)) return simulate_here(scene, 0, stop, progress);
+    SimulationResult result =
+        simulate_here(seen_from(scene, origin), place_rounding(origin), stop, progress);
+    move_back(result.motion, origin);
+    return result;
 }
 
 }  // namespace carom

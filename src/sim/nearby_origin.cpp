@@ -1,0 +1,96 @@
+#include "sim/nearby_origin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "sim/surface_tree.h"
+
+namespace carom {
+
+namespace {
+
+/// A scene is far from the origin where its middle is farther from it than so many times its own
+/// extent: nearer ones lose less than two decimals, and keep their coordinates.
+constexpr double kFar = 32;
+
+/// Roundings of the coordinates that make a gap: those of two places, and of a plane's normal and
+/// offset, which were divided by the normal's length.
+constexpr double kRoundings = 8 * std::numeric_limits<double>::epsilon();
+
+/// offset - normal . origin with one rounding's error: both are large, and their difference is not
+/// (T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26, 2005,
+/// algorithm Dot2).
+double offset_from(const PlaneShape& plane, const Vec3& origin) {
+    double sum = plane.offset_m, lost = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double product = -plane.normal[i] * origin[i];
+        const double next = sum + product;
+        const double part = next - sum;
+        lost += ((sum - (next - part)) + (product - part)) +
+                std::fma(-plane.normal[i], origin[i], -product);
+        sum = next;
+    }
+    return sum + lost;
+}
+
+SurfaceShape seen_from(SurfaceShape shape, const Vec3& origin) {
+    if (auto* plane = std::get_if<PlaneShape>(&shape)) {
+        plane->offset_m = offset_from(*plane, origin);
+    } else if (auto* box = std::get_if<BoxShape>(&shape)) {
+        box->center -= origin;
+    } else if (auto* sphere = std::get_if<SphereShape>(&shape)) {
+        sphere->center -= origin;
+    } else if (auto* capsule = std::get_if<CapsuleShape>(&shape)) {
+        capsule->from -= origin;
+        capsule->to -= origin;
+    }
+    return shape;
+}
+
+}  // namespace
+
+Vec3 nearby_origin(const Scene& scene) {
+    Box3 around;
+    for (const Ball& b : scene.balls) {
+        around.extend(b.position - Vec3::Constant(b.radius));
+        around.extend(b.position + Vec3::Constant(b.radius));
+    }
+    if (around.isEmpty()) return Vec3::Zero();
+    for (const Surface& s : scene.surfaces) around.extend(bounds_of(s.shape));
+    const Vec3 middle = around.center();
+    double extent = around.sizes().maxCoeff();
+    for (const Surface& s : scene.surfaces)
+        if (const auto* plane = std::get_if<PlaneShape>(&s.shape))
+            extent = std::max(extent, std::abs(plane->normal.dot(middle) - plane->offset_m));
+    Vec3 origin = Vec3::Zero();
+    for (int i = 0; i < 3; ++i)
+        // A float: half of a double's digits are left to what is subtracted from it.
+        if (std::abs(middle[i]) > kFar * extent) origin[i] = static_cast<float>(middle[i]);
+    return origin.allFinite() ? origin : Vec3::Zero();
+}
+
+Scene seen_from(const Scene& scene, const Vec3& origin) {
+    Scene seen = scene;
+    for (Ball& b : seen.balls) b.position -= origin;
+    for (Surface& s : seen.surfaces) s.shape = seen_from(std::move(s.shape), origin);
+    return seen;
+}
+
+void move_back(Motion& motion, const Vec3& origin) {
+    for (Trajectory& ball : motion.balls) {
+        Trajectory moved;
+        moved.reserve(ball.pieces().size());
+        for (Piece piece : ball.pieces()) {
+            piece.position += origin;
+            moved.append(std::move(piece));
+        }
+        ball = std::move(moved);
+    }
+    for (Event& event : motion.events) event.point += origin;
+}
+
+double place_rounding(const Vec3& origin) { return kRoundings * origin.cwiseAbs().maxCoeff(); }
+
+}  // namespace carom
