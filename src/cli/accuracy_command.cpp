@@ -8,12 +8,14 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/standard_error.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
+#include "core/readable.h"
 #include "media/output_file.h"
 #include "media/output_folder.h"
 #include "report/accuracy_files.h"
@@ -33,9 +35,11 @@ struct AccuracyCommand {
 void prepare(const AccuracyCommand& command, const Interrupt& interrupt) {
     require_gnuplot(interrupt.token());
     prepare_folder(command.folder);
-    for (const std::string& name : accuracy_file_names())
-        require_writable((std::filesystem::path(command.folder) / name).string(),
-                         command.common.overwrite);
+    for (const std::string& name : accuracy_file_names()) {
+        const std::string path = (std::filesystem::path(command.folder) / name).string();
+        require_distinct({{"-o", path}}, {{"SCENE", command.scene}});
+        require_writable(path, command.common.overwrite);
+    }
 }
 
 int accuracy(AccuracyCommand command, const Interrupt& interrupt) {
@@ -49,10 +53,10 @@ int accuracy(AccuracyCommand command, const Interrupt& interrupt) {
     const AccuracyReport report =
         measure_accuracy(*scene, command.measure, interrupt.token(), [&](const std::string& what) {
             interrupt.reached("while measuring " + what);
-            if (!command.common.quiet) say("carom: {}\n", what);
+            if (!command.common.quiet) say("carom: {}\n", readable_message(what));
         });
     interrupt.reached("while drawing the plots");
-    write_accuracy(report, command.folder, interrupt.token());
+    write_accuracy(report, command.folder, command.common.existing(), interrupt.token());
     write_standard_output(accuracy_summary(report) + "\n");
     return kExitDone;
 }
@@ -63,6 +67,7 @@ void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command =
         app.add_subcommand("accuracy", "Measure speed against error of the methods on a scene");
     auto options = std::make_shared<AccuracyCommand>();
+    command->footer("  carom accuracy scene.yaml -o out/accuracy --budget 5\n");
     command->add_option("scene", options->scene, "Scene file, - for standard input")
         ->required()
         ->type_name("SCENE");
@@ -79,14 +84,16 @@ void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->check(CLI::PositiveNumber);
     command
         ->add_option("--budget", options->measure.budget_s,
-                     "CPU seconds that one method and step may take (default: 20)")
+                     "CPU seconds that one method and step may take")
         ->type_name("S")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command
         ->add_option("--repeats", options->measure.repeats,
-                     "Timed runs, whose median counts (default: 3)")
+                     "Timed runs, 1 to 1000, whose median counts")
         ->type_name("N")
-        ->check(CLI::Range(1, 1000));
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
     add_scene_options(*command, options->common);
     command->add_flag("-y,--overwrite", options->common.overwrite, "Replace files that exist");
     command->add_flag("-q,--quiet", options->common.quiet, "Errors and the result only");

@@ -86,8 +86,11 @@ void add_against_options(CLI::App& command, AgainstOptions& options) {
         ->type_name("PATH=VALUE")
         ->take_all()
         ->allow_extra_args(false);
-    command.add_option("--against-view", options.view, "ghost (default) or side")
-        ->check(CLI::IsMember({"ghost", "side"}));
+    command
+        .add_option("--against-view", options.view,
+                    "In the same picture, or beside it (default: as the scene says, else ghost)")
+        ->check(CLI::IsMember({"ghost", "side"}))
+        ->type_name("ghost|side");
 }
 
 std::optional<FilmScenes> load_film_scenes(const std::string& path, const CommonOptions& options,

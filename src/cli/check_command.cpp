@@ -14,6 +14,7 @@
 #include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
+#include "core/readable.h"
 #include "render/painter.h"
 #include "scene/schema.h"
 
@@ -26,6 +27,11 @@ struct CheckOptions {
     bool json = false;
     CommonOptions common;
 };
+
+/// File names need be no UTF-8, JSON has to be.
+std::string json_text(const nlohmann::ordered_json& json) {
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 nlohmann::ordered_json diagnostic_json(const Diagnostic& d) {
     return {{"file", d.file},
@@ -64,11 +70,11 @@ int check(const CheckOptions& options, const Interrupt& interrupt) {
                         {"valid", result.scene.has_value()},
                         {"diagnostics", std::move(found)}});
         if (!options.json && !options.common.quiet && result.scene)
-            write_standard_output(fmt::format("{}: valid, {} balls, {} surfaces\n", path,
+            write_standard_output(fmt::format("{}: valid, {} balls, {} surfaces\n", readable(path),
                                               result.scene->balls.size(),
                                               result.scene->surfaces.size()));
     }
-    if (options.json) write_standard_output(json.dump(2) + "\n");
+    if (options.json) write_standard_output(json_text(json));
     return valid ? kExitDone : kExitInvalidScene;
 }
 
@@ -93,7 +99,7 @@ int print_info(bool json) {
         else
             write_standard_output(fmt::format("{:<12} {}\n", name, version));
     }
-    if (json) write_standard_output(object.dump(2) + "\n");
+    if (json) write_standard_output(json_text(object));
     return kExitDone;
 }
 
@@ -102,6 +108,7 @@ int print_info(bool json) {
 void add_check_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("check", "Validate scenes, print every mistake");
     auto options = std::make_shared<CheckOptions>();
+    command->footer("  carom check scenes/*.yaml\n  carom check --json scene.yaml\n");
     command->add_option("scenes", options->scenes, "Scene files, - for standard input")
         ->required()
         ->type_name("SCENE...");

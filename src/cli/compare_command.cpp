@@ -2,17 +2,23 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "cli/commands.h"
+#include "cli/comparison.h"
+#include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
+#include "media/file_kind.h"
 #include "media/film_reader.h"
 #include "media/output_file.h"
 #include "media/png.h"
@@ -29,99 +35,64 @@ constexpr int kFilmTolerance = 4;
 struct CompareOptions {
     std::string a, b;
     std::string difference;
-    int tolerance = -1;  ///< -1: the default for what is compared
-    double most_differing = ImageTolerance{}.differing;
+    std::optional<int> tolerance;  ///< none: the default for what is compared
+    std::optional<double> most_differing;
     bool json = false;
     bool overwrite = false;
 };
 
 enum class Kind { kPicture, kFolder, kFilm };
 
+[[noreturn]] void refuse_picture(const std::string& path, const FileContent& content) {
+    throw Failure(
+        FailureKind::kInput,
+        fmt::format("{} is a {} picture; pictures are compared as PNGs", path, content.name));
+}
+
 Kind kind_of(const std::string& path) {
     if (fs::is_directory(path)) return Kind::kFolder;
     if (!fs::exists(path))
         throw Failure(FailureKind::kInput, fmt::format("{}: no such file or folder", path));
-    return fs::path(path).extension() == ".png" ? Kind::kPicture : Kind::kFilm;
+    const FileContent content = file_content(path);
+    switch (content.kind) {
+        case FileKind::kPng:
+            return Kind::kPicture;
+        case FileKind::kOtherPicture:
+            refuse_picture(path, content);
+        case FileKind::kLfsPointer:
+            throw Failure(FailureKind::kInput, fmt::format("{}: {}", path, kLfsAdvice));
+        case FileKind::kEmpty:
+            throw Failure(FailureKind::kInput, fmt::format("{} is empty", path));
+        case FileKind::kOther:
+            break;
+    }
+    return Kind::kFilm;
 }
 
-/// What has been compared so far; keeps the worst pair for the difference picture.
-class Comparison {
-  public:
-    explicit Comparison(const ImageTolerance& tolerance) : tolerance_(tolerance) {}
-
-    void add(const std::string& name, const Image& a, const Image& b) {
-        const ImageDifference d = compare_images(a, b);
-        ++compared_;
-        if (!tolerance_.accepts(d)) failed_.push_back(name);
-        if (compared_ == 1 || worse(d, worst_)) {
-            worst_ = d;
-            worst_name_ = name;
-            if (d.same_size) picture_ = difference_image(a, b);
-        }
-    }
-    void add_missing(const std::string& name) { failed_.push_back(name + " (only in one)"); }
-
-    bool same() const { return failed_.empty(); }
-    const Image& worst_picture() const { return picture_; }
-
-    std::string text() const {
-        std::string what =
-            worst_.same_size
-                ? fmt::format(
-                      "largest difference {} of 255, {:.4f} % of pixels differ, "
-                      "luma PSNR {:.2f} dB",
-                      worst_.largest, 100 * worst_.differing_fraction(), worst_.psnr_luma_db)
-                : "the sizes differ";
-        std::string result =
-            fmt::format("{}: {} compared, worst {}: {}\n", same() ? "same" : "different", compared_,
-                        worst_name_, what);
-        for (const std::string& name : failed_) result += fmt::format("differs: {}\n", name);
-        return result;
-    }
-
-    nlohmann::ordered_json json() const {
-        nlohmann::ordered_json json = {{"same", same()},
-                                       {"compared", compared_},
-                                       {"worst", worst_name_},
-                                       {"same_size", worst_.same_size},
-                                       {"largest", worst_.largest},
-                                       {"differing_fraction", worst_.differing_fraction()},
-                                       {"differs", failed_}};
-        // JSON has no infinity: identical pictures have no PSNR.
-        json["psnr_luma_db"] = std::isfinite(worst_.psnr_luma_db)
-                                   ? nlohmann::ordered_json(worst_.psnr_luma_db)
-                                   : nlohmann::ordered_json(nullptr);
-        return json;
-    }
-
-  private:
-    static bool worse(const ImageDifference& a, const ImageDifference& b) {
-        if (a.same_size != b.same_size) return !a.same_size;
-        if (a.largest != b.largest) return a.largest > b.largest;
-        return a.differing > b.differing;
-    }
-
-    ImageTolerance tolerance_;
-    std::int64_t compared_ = 0;
-    std::vector<std::string> failed_;
-    ImageDifference worst_;
-    std::string worst_name_;
-    Image picture_;
-};
-
+/// The folder's PNGs, whatever the case of their extension. Other pictures would be passed over in
+/// silence: they are refused.
 std::set<std::string> png_names(const std::string& folder) {
     std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".png") names.insert(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        const FileContent content = file_content(entry.path().string());
+        if (content.kind == FileKind::kOtherPicture) refuse_picture(entry.path().string(), content);
+        std::string extension = entry.path().extension().string();
+        std::transform(extension.begin(), extension.end(), extension.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (content.kind == FileKind::kPng || extension == ".png")
+            names.insert(entry.path().filename().string());
+    }
+    if (names.empty())
+        throw Failure(FailureKind::kInput, fmt::format("{} holds no PNG: there is nothing to "
+                                                       "compare",
+                                                       folder));
     return names;
 }
 
 void compare_folders(const CompareOptions& options, const Interrupt& interrupt,
                      Comparison& comparison) {
     const std::set<std::string> a = png_names(options.a), b = png_names(options.b);
-    if (a.empty() && b.empty())
-        throw Failure(FailureKind::kInput,
-                      fmt::format("{} and {} hold no .png files", options.a, options.b));
     std::set<std::string> all = a;
     all.insert(b.begin(), b.end());
     std::size_t compared = 0;
@@ -137,6 +108,13 @@ void compare_folders(const CompareOptions& options, const Interrupt& interrupt,
     }
 }
 
+/// Two time stamps of one instant, each rounded to its own film's ticks.
+bool same_time(const FilmReader& a, const FilmReader& b) {
+    constexpr double kRounding_s = 1e-9;  // of the differences of stamps, as doubles
+    if (std::isnan(a.time_s()) || std::isnan(b.time_s())) return true;
+    return std::abs(a.time_s() - b.time_s()) <= a.time_error_s() + b.time_error_s() + kRounding_s;
+}
+
 void compare_films(const CompareOptions& options, const Interrupt& interrupt,
                    Comparison& comparison) {
     FilmReader a(options.a), b(options.b);
@@ -145,16 +123,44 @@ void compare_films(const CompareOptions& options, const Interrupt& interrupt,
         interrupt.check();
         interrupt.reached(fmt::format("after {} frames", k));
         const bool has_a = a.next(frame_a), has_b = b.next(frame_b);
+        for (const auto& [has, path] : {std::pair(has_a, options.a), std::pair(has_b, options.b)})
+            if (k == 0 && !has)
+                throw Failure(FailureKind::kInput, fmt::format("{} holds no frame", path));
         if (!has_a && !has_b) break;
         const std::string name = fmt::format("frame {}", k);
-        if (has_a && has_b)
+        if (has_a && has_b) {
             comparison.add(name, frame_a, frame_b);
-        else
+            if (!same_time(a, b)) comparison.add_other_time(name, a.time_s(), b.time_s());
+        } else {
             comparison.add_missing(name);
+        }
     }
 }
 
+/// What is asked for, or the default for what is compared.
+ImageTolerance tolerance_for(const CompareOptions& options, Kind kind) {
+    ImageTolerance tolerance;
+    if (kind == Kind::kFilm) tolerance = {.channel = kFilmTolerance, .differing = 1};
+    if (options.tolerance) tolerance.channel = *options.tolerance;
+    if (options.most_differing) tolerance.differing = *options.most_differing;
+    return tolerance;
+}
+
+/// --diff must not be one of the pictures that are compared.
+void require_untouched(const CompareOptions& options) {
+    std::vector<NamedFile> inputs;
+    for (const std::string& path : {options.a, options.b})
+        inputs.push_back({"the compared",
+                          fs::is_directory(path)
+                              ? (fs::path(path) / fs::path(options.difference).filename()).string()
+                              : path});
+    for (NamedFile& input : inputs)
+        if (!fs::exists(input.path)) input.path.clear();
+    require_distinct({{"--diff", options.difference}}, inputs);
+}
+
 int compare(const CompareOptions& options, const Interrupt& interrupt) {
+    require_untouched(options);
     const Kind kind = kind_of(options.a);
     if (kind_of(options.b) != kind)
         throw Failure(
@@ -164,15 +170,8 @@ int compare(const CompareOptions& options, const Interrupt& interrupt) {
                         options.a, options.b));
     if (!options.difference.empty()) require_writable(options.difference, options.overwrite);
 
-    ImageTolerance tolerance;
-    tolerance.differing = options.most_differing;
-    if (kind == Kind::kFilm) {
-        tolerance.channel = kFilmTolerance;
-        tolerance.differing = 1;
-    }
-    if (options.tolerance >= 0) tolerance.channel = options.tolerance;
-
-    Comparison comparison(tolerance);
+    Comparison comparison(tolerance_for(options, kind),
+                          kind == Kind::kFilm ? "frames" : "pictures");
     switch (kind) {
         case Kind::kPicture:
             comparison.add(options.a, read_png(options.a), read_png(options.b));
@@ -185,8 +184,13 @@ int compare(const CompareOptions& options, const Interrupt& interrupt) {
             break;
     }
     if (!options.difference.empty() && comparison.worst_picture().width_px > 0)
-        write_png(options.difference, comparison.worst_picture());
-    write_standard_output(options.json ? comparison.json().dump(2) + "\n" : comparison.text());
+        write_png(options.difference, comparison.worst_picture(), PngEffort::kFast,
+                  Durability::kSynced, existing_of(options.overwrite));
+    write_standard_output(
+        options.json ? comparison.json().dump(2, ' ', false,
+                                              nlohmann::ordered_json::error_handler_t::replace) +
+                           "\n"
+                     : comparison.text());
     return comparison.same() ? kExitDone : kExitDifferent;
 }
 
@@ -195,18 +199,31 @@ int compare(const CompareOptions& options, const Interrupt& interrupt) {
 void add_compare_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("compare", "Compare two pictures, folders or films");
     auto options = std::make_shared<CompareOptions>();
-    command->add_option("a", options->a, "Picture, folder of PNGs, or film")->required();
-    command->add_option("b", options->b, "The same of the other")->required();
-    command->add_option("--diff", options->difference, "Write a picture of the worst difference")
+    command->footer(
+        "  carom compare a.png b.png --diff difference.png\n"
+        "  carom compare frames_a/ frames_b/ --max-differing 0\n"
+        "  carom compare a.mp4 b.mp4 --tolerance 8\n");
+    command->add_option("a", options->a, "Picture, folder of PNGs, or film")
+        ->required()
+        ->type_name("A");
+    command->add_option("b", options->b, "Another one of the same kind")
+        ->required()
+        ->type_name("B");
+    command
+        ->add_option("--diff", options->difference,
+                     "Write a picture of the worst difference (default: none)")
         ->type_name("D.png");
     command
         ->add_option("--tolerance", options->tolerance,
-                     "Largest difference of any channel, of 255 (default 2; films 4)")
-        ->check(CLI::Range(0, 255));
+                     "Largest difference of any channel, of 255 (default: 2, of films 4)")
+        ->check(CLI::Range(0, 255))
+        ->type_name("0-255");
     command
         ->add_option("--max-differing", options->most_differing,
-                     "Largest fraction of pixels that differ at all")
-        ->check(CLI::Range(0.0, 1.0));
+                     "Largest fraction of pixels that differ at all, 0 to 1 (default: 0.01, of "
+                     "films 1)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("F");
     command->add_flag("--json", options->json, "Result as JSON");
     command->add_flag("-y,--overwrite", options->overwrite, "Replace the picture of --diff");
     command->callback([options, &run, &interrupt] {

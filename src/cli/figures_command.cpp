@@ -47,10 +47,11 @@ int figures(const FiguresOptions& options, const Interrupt& interrupt) {
     prepare(options, items, interrupt);
     std::size_t made = 0, files = 0;
     for (const PaperItem& item : items) files += item.files.size();
-    make_paper(items, options.folder, interrupt.token(), [&](const std::string& file) {
-        interrupt.reached(fmt::format("after {} of {} files", ++made, files));
-        if (!options.common.quiet) say("carom: {}\n", file);
-    });
+    make_paper(items, options.folder, options.common.existing(), interrupt.token(),
+               [&](const std::string& file) {
+                   interrupt.reached(fmt::format("after {} of {} files", ++made, files));
+                   if (!options.common.quiet) say("carom: {}\n", file);
+               });
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (!options.common.quiet) say("carom: {} files in {:.1f} s\n", made, wall.count());
     return kExitDone;
@@ -61,6 +62,8 @@ int figures(const FiguresOptions& options, const Interrupt& interrupt) {
 void add_figures_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("figures", "Make the paper's figures and tables again");
     auto options = std::make_shared<FiguresOptions>();
+    command->footer(
+        "  carom figures -o out/paper\n  carom figures -o out/paper --only figure7,tables\n");
     command->add_option("-o,--output", options->folder, "Folder for the files, made if need be")
         ->required()
         ->type_name("DIR");

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <string_view>
 
 #include "core/failure.h"
@@ -18,6 +17,9 @@ namespace {
 
 /// A film of more frames than this is a mistake in duration, fps or speed.
 constexpr double kMostFrames = 1e9;
+/// What one run draws: 19 days of film at 60 frames a second, and days of work. More is a mistake,
+/// or is done in parts.
+constexpr std::int64_t kMostDrawn = 100'000'000;
 constexpr std::int64_t kMostChunks = 1'000'000'000;
 
 [[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
@@ -38,7 +40,7 @@ std::int64_t from_environment(const char* name, const std::string& option) {
 
 /// One "a", "a-b", "a-" or "a-b:step".
 void add_range(std::string_view part, std::int64_t count, const std::string& option,
-               std::vector<std::int64_t>& frames) {
+               std::vector<FrameRange>& ranges) {
     std::int64_t step = 1;
     if (const std::size_t colon = part.find(':'); colon != std::string_view::npos) {
         step = whole_number(part.substr(colon + 1), option);
@@ -53,7 +55,7 @@ void add_range(std::string_view part, std::int64_t count, const std::string& opt
     if (first >= count || last >= count)
         usage(fmt::format("{}: the film has frames 0 to {}", option, count - 1));
     if (last < first) usage(fmt::format("{}: '{}' runs backwards", option, part));
-    for (std::int64_t k = first; k <= last; k += step) frames.push_back(k);
+    ranges.push_back({first, last, step});
 }
 
 }  // namespace
@@ -73,27 +75,19 @@ double frame_time(const Film& film, std::int64_t frame) {
                        static_cast<double>(frame) * film.fps.denominator / film.fps.numerator);
 }
 
-std::vector<std::int64_t> all_frames(std::int64_t count) {
-    std::vector<std::int64_t> frames(static_cast<std::size_t>(count));
-    std::iota(frames.begin(), frames.end(), std::int64_t{0});
-    return frames;
-}
-
-std::vector<std::int64_t> parse_frames(const std::string& text, std::int64_t count) {
-    std::vector<std::int64_t> frames;
+FrameRanges parse_frames(const std::string& text, std::int64_t count) {
+    std::vector<FrameRange> ranges;
     std::string_view rest = text;
     for (bool more = true; more;) {
         const std::size_t comma = rest.find(',');
         more = comma != std::string_view::npos;
-        add_range(rest.substr(0, comma), count, "--frames " + text, frames);
+        add_range(rest.substr(0, comma), count, "--frames " + text, ranges);
         if (more) rest = rest.substr(comma + 1);
     }
-    std::sort(frames.begin(), frames.end());
-    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-    return frames;
+    return FrameRanges(std::move(ranges));
 }
 
-std::vector<std::int64_t> parse_chunk(const std::string& text, std::int64_t count) {
+FrameRanges parse_chunk(const std::string& text, std::int64_t count) {
     const std::string option = "--chunk " + text;
     std::int64_t i = 0, n = 0;
     if (text == "auto") {
@@ -110,9 +104,20 @@ std::vector<std::int64_t> parse_chunk(const std::string& text, std::int64_t coun
     if (n > kMostChunks) usage(fmt::format("{}: at most {} chunks", option, kMostChunks));
     // floor(k F / N) in whole numbers; taken apart so that k F cannot overflow.
     const auto bound = [&](std::int64_t k) { return k * (count / n) + k * (count % n) / n; };
-    std::vector<std::int64_t> frames;
-    for (std::int64_t k = bound(i - 1); k < bound(i); ++k) frames.push_back(k);
-    return frames;
+    if (bound(i - 1) == bound(i)) return {};
+    return FrameRanges({{bound(i - 1), bound(i) - 1, 1}});
+}
+
+void require_drawable(const FrameRanges& frames, const Film& film) {
+    if (frames.size() <= kMostDrawn) return;
+    constexpr double kDay_s = 86400;
+    const double days = static_cast<double>(frames.size()) / film.fps.per_second() / kDay_s;
+    usage(
+        fmt::format("{:.4g} frames, which are {:.4g} days of film at {:.6g} frames/s; at most "
+                    "{:.0e} are drawn at once: shorten simulation.duration, lower film.fps, raise "
+                    "film.speed, or take a part with --frames or --chunk",
+                    static_cast<double>(frames.size()), days, film.fps.per_second(),
+                    static_cast<double>(kMostDrawn)));
 }
 
 }  // namespace carom

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "cli/frame_ranges.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -19,14 +19,15 @@ std::int64_t frame_count(const Film& film, double duration);
 double frame_time(const Film& film, std::int64_t frame);
 
 /// "0-9,20-40:2,100-" out of `count` frames: inclusive ranges with an optional step.
-/// Increasing, each once. Throws Failure(kInput) when malformed or beyond the film.
-std::vector<std::int64_t> parse_frames(const std::string& text, std::int64_t count);
+/// Throws Failure(kInput) when malformed or beyond the film.
+FrameRanges parse_frames(const std::string& text, std::int64_t count);
 
 /// Chunk I of N ("I/N", 1 <= I <= N) out of `count` frames: floor((I-1) F/N) ... floor(I F/N) - 1.
 /// "auto" takes I and N from the array variables of Slurm.
-std::vector<std::int64_t> parse_chunk(const std::string& text, std::int64_t count);
+/// Empty where there are more chunks than frames.
+FrameRanges parse_chunk(const std::string& text, std::int64_t count);
 
-/// All `count` frames.
-std::vector<std::int64_t> all_frames(std::int64_t count);
+/// Refuses what nobody can mean, with numbers and what to change: Failure(kInput).
+void require_drawable(const FrameRanges& frames, const Film& film);
 
 }  // namespace carom

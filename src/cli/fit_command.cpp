@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/standard_output.h"
@@ -100,6 +101,7 @@ int fit(const FitCommandOptions& options, const Interrupt& interrupt) {
     if (!options.plot.empty()) {
         if (!plot_format_of(options.plot))
             usage(fmt::format("-o {}: a plot is a .svg, .png or .pdf file", options.plot));
+        require_distinct({{"-o", options.plot}}, {{"--csv", options.csv}});
         require_writable(options.plot, options.overwrite);
         require_gnuplot(interrupt.token());
     }
@@ -112,7 +114,9 @@ int fit(const FitCommandOptions& options, const Interrupt& interrupt) {
     const RestitutionFit found = fit_restitution(measured, fit_options(options, measured));
     const VirtualBodyLine line =
         virtual_body_line(found.restitution, options.constant, options.velocity);
-    if (!options.plot.empty()) write_plot(fit_plot(found, line), options.plot, interrupt.token());
+    if (!options.plot.empty())
+        write_plot(fit_plot(found, line), options.plot, existing_of(options.overwrite),
+                   interrupt.token());
     write_standard_output(options.json ? fit_json(found, line, options.name)
                                        : fit_text(found, line, options.name));
     return kExitDone;
@@ -126,21 +130,28 @@ void add_sources(CLI::App& command, FitCommandOptions& options) {
             ->take_all()
             ->allow_extra_args(false);
     };
-    list("--drop", options.drops, "Height of the ball's bottom, e.g. 1.8, 180cm (repeatable)", "H");
-    list("--rebound", options.rebounds, "Height that it came back to (repeatable)", "h");
+    list("--drop", options.drops,
+         "Height of the ball's bottom in metres, or e.g. 180cm (repeatable)", "H");
+    list("--rebound", options.rebounds,
+         "Height that it came back to, in metres or with a unit (repeatable)", "h");
     command.add_option("--csv", options.csv, "Columns drop and rebound, or interval, with units")
         ->type_name("FILE");
     list("--intervals", options.intervals,
-         "Times between successive bounces in order, e.g. 0.86,0.73,0.62 or 860ms,730ms", "T,...")
+         "Times between successive bounces in order, in seconds, or e.g. 860ms,730ms", "T,...")
         ->delimiter(',');
     command
         .add_option("--rebound-to", options.rebound_to, "What of the ball a rebound is measured to")
-        ->check(CLI::IsMember({"bottom", "top"}));
-    command.add_option("--diameter", options.diameter, "Of the ball, for --rebound-to top")
+        ->check(CLI::IsMember({"bottom", "top"}))
+        ->type_name("bottom|top")
+        ->capture_default_str();
+    command
+        .add_option("--diameter", options.diameter,
+                    "Diameter of the ball in metres, or e.g. 24cm, for --rebound-to top")
         ->type_name("D");
     command
         .add_option("--reading-error", options.reading_error,
-                    "Standard uncertainty of one reading: a height, or with intervals a time")
+                    "Standard uncertainty of one reading in metres, or with --intervals in seconds "
+                    "(default: from the scatter alone)")
         ->type_name("E");
 }
 
@@ -150,18 +161,31 @@ void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand(
         "fit", "From measured drops to a restitution, a line (x, v), a material");
     auto options = std::make_shared<FitCommandOptions>();
+    command->footer(
+        "  carom fit --drop 1.8 --rebound 1.29 --rebound 1.31\n"
+        "  carom fit --drop 180cm --rebound 129cm -o line.svg\n"
+        "  carom fit --intervals 0.86,0.73,0.62\n");
     add_sources(*command, *options);
     constexpr double kMost = 1e9;
-    command->add_option("--constant", options->constant, "K of Eq. 7, 1/s")
-        ->check(CLI::Range(1e-9, kMost));
+    command->add_option("--constant", options->constant, "K of Eq. 7 in 1/s")
+        ->check(CLI::Range(1e-9, kMost))
+        ->type_name("K")
+        ->capture_default_str();
     command
         ->add_option("--velocity", options->velocity,
-                     "v of the suggested virtual body, m/s; x follows")
-        ->check(CLI::Range(1e-9, kMost));
-    command->add_option("--name", options->name, "Of the material in the snippet");
-    command->add_option("-o,--output", options->plot, "Plot of the line: a .svg, .png or .pdf file")
+                     "v of the suggested virtual body in m/s; x follows")
+        ->check(CLI::Range(1e-9, kMost))
+        ->type_name("V")
+        ->capture_default_str();
+    command->add_option("--name", options->name, "Name of the material in the snippet")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command
+        ->add_option("-o,--output", options->plot,
+                     "Plot of the line: a .svg, .png or .pdf file (default: none)")
         ->type_name("PLOT");
-    command->add_flag("-y,--overwrite", options->overwrite, "Replace the plot");
+    command->add_flag("-y,--overwrite", options->overwrite,
+                      "Replace the plot (default: it is kept, exit code 4)");
     command->add_flag("--json", options->json, "Result as JSON");
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return fit(*options, interrupt); };

@@ -3,28 +3,30 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
+#include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/process_start.h"
 #include "cli/standard_error.h"
 #include "cli/standard_output.h"
 #include "core/check.h"
-#include "core/diagnostics.h"
 #include "core/failure.h"
+#include "core/readable.h"
 
 namespace carom {
 
 namespace {
 
 constexpr const char* kExamples =
-    "Examples:\n"
     "  carom render scenes/figure9.yaml -o out/figure9.mp4\n"
     "  carom still scenes/figure8.yaml --time 1.2 -o out/figure8.png\n"
     "  carom simulate scenes/figure8.yaml -o motion.csv --events events.csv\n"
-    "  carom check scenes/*.yaml\n";
+    "  carom check scenes/*.yaml\n"
+    "  carom help render\n";
 
 int exit_code_of(const Failure& failure) {
     switch (failure.kind()) {
@@ -38,15 +40,30 @@ int exit_code_of(const Failure& failure) {
     return kExitFailed;
 }
 
-/// For a word that is no command, the command that was probably meant.
-std::string suggestion(const CLI::App& app, int argc, char** argv) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-    if (argc < 2) return {};
-    for (const std::string& name : names)
-        if (name == argv[1]) return {};
-    const std::string nearest = nearest_word(argv[1], names);
-    return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
+/// `carom help COMMAND` and `carom version` are `carom COMMAND --help` and `carom --version`.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (words.empty()) return words;
+    if (words.front() == "help") {
+        words.erase(words.begin());
+        words.emplace_back("--help");
+    } else if (words.front() == "version") {
+        words.front() = "--version";
+    }
+    return words;
+}
+
+/// Text that was asked for.
+int print(const std::string& text) {
+    try {
+        write_standard_output(text);
+    } catch (const ReaderGone&) {
+        return kExitDone;
+    } catch (const Failure& failure) {
+        fmt::print(stderr, "carom: {}\n", failure.what());
+        return exit_code_of(failure);
+    }
+    return kExitDone;
 }
 
 /// Of the exception in flight; says what went wrong.
@@ -71,11 +88,10 @@ int run_program(int argc, char** argv) {
     share_the_heap_where_it_is_limited();
     const Interrupt interrupt;
 
-    CLI::App app(
-        "Physically exact films of bouncing balls, from a text file, with no display.\n\n" +
-            std::string(kExamples),
-        "carom");
-    app.set_version_flag("--version", "carom " CAROM_VERSION);
+    CLI::App app("Physically exact films of bouncing balls, from a text file, with no display.",
+                 "carom");
+    set_up_help(app);
+    app.set_version_flag("--version", "carom " CAROM_VERSION, "Print the version");
     app.require_subcommand(1);
     Run run;
     add_render_command(app, run, interrupt);
@@ -90,12 +106,24 @@ int run_program(int argc, char** argv) {
     add_schema_command(app, run);
     add_info_command(app, run);
 
+    app.footer(kExamples);
+
+    std::vector<std::string> words = arguments_of(argc, argv);
+    if (words.empty()) {
+        fmt::print(stderr, "{}", help_text(app));
+        return kExitUsage;
+    }
+    const std::string first = words.front();
     try {
-        app.parse(argc, argv);
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(words);
+    } catch (const CLI::CallForHelp&) {
+        return print(help_text(app));
+    } catch (const CLI::CallForVersion& version) {
+        return print(fmt::format("{}\n", version.what()));
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-        say("carom: {}{}\nRun with --help for more information.\n", error.what(),
-            suggestion(app, argc, argv));
+        say("carom: {}\nRun with --help for more information.\n",
+            readable_message(usage_error(app, error.what(), first)));
         return kExitUsage;
     }
 

@@ -15,7 +15,7 @@ std::vector<Override> CommonOptions::overrides() const {
     std::vector<Override> result;
     for (const std::string& text : set) result.push_back(parse_override(text));
     if (size) {
-        const std::size_t cross = size->find('x');
+        const std::size_t cross = size->find_first_of("xX");
         if (cross == std::string::npos)
             throw Failure(FailureKind::kInput,
                           fmt::format("--size {}: expected WIDTHxHEIGHT, e.g. 1280x720", *size));
@@ -29,19 +29,28 @@ std::vector<Override> CommonOptions::overrides() const {
 void add_scene_options(CLI::App& command, CommonOptions& options) {
     command
         .add_option("--set", options.set,
-                    "Change the scene: PATH=VALUE, e.g. balls.a.mass=1 (repeatable)")
+                    "Change the scene before it is read, e.g. balls.a.mass=1, film.size[0]=640 "
+                    "(repeatable)")
         ->type_name("PATH=VALUE")
         ->take_all()
         ->allow_extra_args(false);
 }
 
 void add_picture_options(CLI::App& command, CommonOptions& options) {
-    command.add_option("--size", options.size, "Size of the picture in pixels")->type_name("WxH");
+    command
+        .add_option("--size", options.size,
+                    "Width and height of the picture in pixels, e.g. 640x360 (default: the scene's "
+                    "film.size)")
+        ->type_name("WxH");
 }
 
 void add_output_options(CLI::App& command, CommonOptions& options) {
-    command.add_flag("-y,--overwrite", options.overwrite, "Replace files that exist");
-    command.add_option("--stats", options.stats_path, "Write times, counts and effects as JSON")
+    command.add_flag("-y,--overwrite", options.overwrite,
+                     "Replace files that exist (default: they are kept, exit code 4)");
+    command
+        .add_option(
+            "--stats", options.stats_path,
+            "Write times, counts and effects as JSON, - for standard output (default: none)")
         ->type_name("FILE");
 }
 
@@ -50,8 +59,14 @@ void add_progress_options(CLI::App& command, CommonOptions& options) {
                                                                {"bar", ProgressMode::kBar},
                                                                {"plain", ProgressMode::kPlain},
                                                                {"none", ProgressMode::kNone}};
-    command.add_option("--progress", options.progress, "auto, bar, plain or none")
-        ->transform(CLI::CheckedTransformer(kModes).description("MODE"));
+    command
+        .add_option(
+            "--progress", options.progress,
+            "How progress is shown on standard error: a bar, or plain lines every 5 s; auto "
+            "is a bar on a terminal")
+        ->transform(CLI::CheckedTransformer(kModes))
+        ->type_name("auto|bar|plain|none")
+        ->default_str("auto");
     command.add_flag("-q,--quiet", options.quiet, "Errors only");
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/progress.h"
+#include "media/output_file.h"
 #include "scene/reader.h"
 
 namespace CLI {
@@ -27,6 +28,7 @@ struct CommonOptions {
 
     /// --set, --size and --fps as changes of the scene's document.
     std::vector<Override> overrides() const;
+    Existing existing() const { return existing_of(overwrite); }
     ProgressMode progress_mode() const { return quiet ? ProgressMode::kNone : progress; }
 };
 

@@ -21,6 +21,7 @@
 #include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
+#include "core/readable.h"
 #include "media/output_file.h"
 #include "render/painter.h"
 
@@ -40,10 +41,13 @@ struct RenderOptions {
     EncodingOptions encoding;
 };
 
-std::vector<std::int64_t> wanted_frames(const RenderOptions& options, std::int64_t count) {
-    if (!options.frames.empty()) return parse_frames(options.frames, count);
-    if (!options.chunk.empty()) return parse_chunk(options.chunk, count);
-    return all_frames(count);
+FrameRanges wanted_frames(const RenderOptions& options, const Film& film, double duration) {
+    const std::int64_t count = frame_count(film, duration);
+    FrameRanges frames = FrameRanges::all(count);
+    if (!options.frames.empty()) frames = parse_frames(options.frames, count);
+    if (!options.chunk.empty()) frames = parse_chunk(options.chunk, count);
+    require_drawable(frames, film);
+    return frames;
 }
 
 std::vector<OutputRequest> requests(const RenderOptions& options) {
@@ -55,13 +59,14 @@ std::vector<OutputRequest> requests(const RenderOptions& options) {
 /// A film on its way into all its outputs.
 class Filming {
   public:
-    Filming(const RenderOptions& options, const Interrupt& interrupt,
-            const std::vector<std::int64_t>& frames)
+    Filming(const RenderOptions& options, const Interrupt& interrupt, const FrameRanges& frames)
         : options_(options), interrupt_(interrupt), frames_(frames) {}
 
     void open(const Scene& scene) {
+        EncodingOptions encoding = options_.encoding;
+        encoding.existing = options_.common.existing();
         for (const OutputRequest& output : requests(options_))
-            sinks_.push_back(open_output(output, scene, options_.encoding));
+            sinks_.push_back(open_output(output, scene, encoding));
     }
 
     /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
@@ -78,7 +83,7 @@ class Filming {
 
     const RenderOptions& options_;
     const Interrupt& interrupt_;
-    const std::vector<std::int64_t>& frames_;
+    const FrameRanges& frames_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::int64_t done_ = 0;
 };
@@ -88,7 +93,7 @@ void Filming::film(Painter& painter, const Film& film) {
     std::optional<KeptWork> kept;
     if (has_film()) kept.emplace(interrupt_, [this] { keep_partial(); });
     draw_all(painter, film, kept ? &*kept : nullptr);
-    if (done_ < static_cast<std::int64_t>(frames_.size())) {
+    if (done_ < frames_.size()) {
         keep_partial();
         throw Interrupted{};
     }
@@ -102,8 +107,7 @@ bool Filming::has_film() const {
 }
 
 void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
-    Progress progress(options_.common.progress_mode(), interrupt_, "frames",
-                      static_cast<std::int64_t>(frames_.size()));
+    Progress progress(options_.common.progress_mode(), interrupt_, "frames", frames_.size());
     Image picture;
     for (const std::int64_t frame : frames_) {
         if (interrupt_.requested()) return;
@@ -127,31 +131,48 @@ void Filming::keep_partial() const {
     interrupt_.say();
     for (const auto& sink : sinks_)
         if (const std::string kept = sink->keep_partial(); !kept.empty())
-            say("carom: kept {}\n", kept);
+            say("carom: kept {}\n", readable(kept));
 }
 
 std::string plan_text(const RenderOptions& options, const Scene& scene, const Motion& motion,
-                      const std::vector<std::int64_t>& frames) {
-    std::string text = fmt::format("{}: {} balls, {} surfaces, {} s of motion\n", scene.file,
-                                   scene.balls.size(), scene.surfaces.size(), motion.duration);
-    text += fmt::format("{} frames of {}x{} at {} frames/s, frame {} to {}\n", frames.size(),
-                        scene.film.width_px, scene.film.height_px, scene.film.fps.per_second(),
-                        frames.empty() ? -1 : frames.front(), frames.empty() ? -1 : frames.back());
-    for (const std::string& path : options.outputs) text += fmt::format("-> {}\n", path);
+                      const FrameRanges& frames) {
+    std::string text =
+        fmt::format("{}: {} balls, {} surfaces, {} s of motion\n", readable(scene.file),
+                    scene.balls.size(), scene.surfaces.size(), motion.duration);
+    const std::string places =
+        frames.empty() ? "" : fmt::format(", frame {} to {}", frames.front(), frames.back());
+    text += fmt::format("{} frames of {}x{} at {} frames/s{}\n", frames.size(), scene.film.width_px,
+                        scene.film.height_px, scene.film.fps.per_second(), places);
+    for (const std::string& path : options.outputs) text += fmt::format("-> {}\n", readable(path));
     return text;
 }
 
-/// The number of frames before simulating, when the scene says how long it lasts.
-void check_early(const RenderOptions& options, const Scene& scene) {
-    if (!scene.simulation.duration) return;
-    const std::int64_t count = frame_count(scene.film, *scene.simulation.duration);
-    check_outputs(requests(options), wanted_frames(options, count), options.common.overwrite);
+/// What can be refused before simulating, when the scene says how long it lasts. True if nothing is
+/// left to do: a chunk without frames.
+bool is_done_early(const RenderOptions& options, const Scene& scene) {
+    if (!scene.simulation.duration) return false;
+    const FrameRanges frames = wanted_frames(options, scene.film, *scene.simulation.duration);
+    check_outputs(requests(options), frames, options.common.overwrite);
+    return frames.empty() && !options.dry_run;
+}
+
+int nothing_to_do(const RenderOptions& options) {
+    if (!options.common.quiet)
+        fmt::print(stderr, "carom: chunk {} has no frames: nothing is written\n", options.chunk);
+    return kExitDone;
+}
+
+/// The other run's scene may be named by the scene itself, which has to be read to know.
+void require_other_untouched(const RenderOptions& options, const std::string& other) {
+    check_output_names(requests(options), {{"--stats", options.common.stats_path}},
+                       {{"against", other}});
 }
 
 int render(const RenderOptions& options, const Interrupt& interrupt) {
     Stats stats;
-    if (!options.common.stats_path.empty())
-        require_writable(options.common.stats_path, options.common.overwrite);
+    check_output_names(requests(options), {{"--stats", options.common.stats_path}},
+                       {{"SCENE", options.scene}, {"--against", options.against.scene}});
+    require_stats_writable(options.common);
 
     std::optional<FilmScenes> scenes;
     {
@@ -161,7 +182,9 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (!scenes) return kExitInvalidScene;
     const Scene* scene = &scenes->scene;
     check_transparency(requests(options), *scene);
-    check_early(options, *scene);
+    check_films(requests(options), *scene, options.encoding);
+    if (scenes->other) require_other_untouched(options, scenes->other->file);
+    if (is_done_early(options, *scene)) return nothing_to_do(options);
     if (!options.dry_run) prepare_folders(requests(options));
 
     SimulationResult simulated;
@@ -174,15 +197,16 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     }
     const Motion& motion = simulated.motion;
     if (second) stats.add_second(*second);
+    stats.add_warnings(simulated.report, options.common.quiet);
     stats.add_verdict(*scene, motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
-    const std::vector<std::int64_t> frames =
-        wanted_frames(options, frame_count(scene->film, motion.duration));
+    const FrameRanges frames = wanted_frames(options, scene->film, motion.duration);
     check_outputs(requests(options), frames, options.common.overwrite);
     if (options.dry_run) {
         write_standard_output(plan_text(options, *scene, motion, frames));
         return kExitDone;
     }
+    if (frames.empty()) return nothing_to_do(options);
 
     Painter painter(*scene, motion,
                     {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
@@ -190,12 +214,12 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     Filming filming(options, interrupt, frames);
     filming.open(*scene);
     filming.film(painter, scene->film);
-    stats.frames = static_cast<std::int64_t>(frames.size());
+    stats.frames = frames.size();
     filming.add_to(stats);
     stats.add_painter(painter);
 
     if (!options.common.stats_path.empty())
-        write_text_file(options.common.stats_path, stats_json(stats, &simulated));
+        write_stats(options.common, stats_json(stats, &simulated));
     if (!options.common.quiet) {
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - stats.start;
         say("carom: {} frames in {:.1f} s ({:.0f} frames/s)\n", stats.frames, wall.count(),
@@ -209,33 +233,64 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
 void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("render", "Film a scene: MP4, Matroska, or PNG frames");
     auto options = std::make_shared<RenderOptions>();
+    command->footer(
+        "  carom render scene.yaml -o film.mp4\n"
+        "  carom render scene.yaml -o frame_%05d.png --frames 0-99 --size 640x360\n"
+        "  carom render scene.yaml -o - --format mkv | ffplay -\n");
     command->add_option("scene", options->scene, "Scene file, - for standard input")
         ->required()
         ->type_name("SCENE");
     command
-        ->add_option("-o,--output", options->outputs,
-                     "film.mp4, film.mkv, a name with %05d for PNG frames, a folder, or - "
-                     "(repeatable: all from the same drawing)")
+        ->add_option(
+            "-o,--output", options->outputs,
+            "film.mp4, film.mkv, a name with %05d.png for PNG frames, a folder (with / at its "
+            "end if its name has a dot), or - for standard output (repeatable: all from the "
+            "same drawing)")
         ->required()
         ->type_name("OUT")
         ->take_all()
         ->allow_extra_args(false);
-    command->add_option("--format", options->format, "mp4, mkv or png, for -o -")
-        ->check(CLI::IsMember({"mp4", "mkv", "png"}));
-    auto* frames = command->add_option("--frames", options->frames, "e.g. 0-9,20-40:2,100-")
+    command->add_option("--format", options->format, "Format of -o -")
+        ->check(CLI::IsMember({"mp4", "mkv", "png"}))
+        ->type_name("mp4|mkv|png")
+        ->capture_default_str();
+    auto* frames = command
+                       ->add_option("--frames", options->frames,
+                                    "Frames to draw, e.g. 0-9,20-40:2,100- (default: all)")
                        ->type_name("RANGES");
-    command->add_option("--chunk", options->chunk, "Chunk I of N of the frames, or auto")
+    command
+        ->add_option(
+            "--chunk", options->chunk,
+            "Part I of N equal ones of the frames, or auto in a Slurm array (default: all)")
         ->type_name("I/N")
         ->excludes(frames);
     command->add_flag("--dry-run", options->dry_run, "Say what would be filmed, draw nothing");
-    command->add_option("--fps", options->common.fps, "Frames per second, e.g. 30000/1001");
-    command->add_option("--quality", options->encoding.quality, "draft, medium or high")
-        ->check(CLI::IsMember({"draft", "medium", "high"}));
-    command->add_option("--crf", options->encoding.crf, "x264's constant rate factor")
-        ->check(CLI::Range(1, 51));
-    command->add_option("--preset", options->encoding.preset, "x264's preset, e.g. medium");
-    command->add_option("--threads", options->encoding.threads, "Threads of the encoder")
-        ->check(CLI::Range(1, 128));
+    command
+        ->add_option("--fps", options->common.fps,
+                     "Frames per second, e.g. 30000/1001 (default: the scene's film.fps)")
+        ->type_name("N");
+    command
+        ->add_option(
+            "--quality", options->encoding.quality,
+            "Sets both of the next two: draft 28 ultrafast, medium 18 veryfast, high 12 medium")
+        ->check(CLI::IsMember({"draft", "medium", "high"}))
+        ->type_name("draft|medium|high")
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--crf", options->encoding.crf,
+            "x264's constant rate factor, 1 (best) to 51 (smallest) (default: as --quality says)")
+        ->check(CLI::Range(1, 51))
+        ->type_name("1-51");
+    command
+        ->add_option("--preset", options->encoding.preset,
+                     "x264's preset, e.g. medium (default: as --quality says)")
+        ->type_name("NAME");
+    command
+        ->add_option("--threads", options->encoding.threads,
+                     "Threads of the encoder, 1 to 128 (default: one per processor)")
+        ->check(CLI::Range(1, 128))
+        ->type_name("N");
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
+#include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -18,6 +19,8 @@
 #include "media/output_file.h"
 #include "media/text_file.h"
 #include "motion/csv.h"
+#include "scene/frame_rate.h"
+#include "scene/scalar.h"
 
 namespace carom {
 
@@ -32,7 +35,7 @@ struct SimulateOptions {
 };
 
 /// Runs `write` into a file that appears when whole, or into standard output for "-".
-void write_csv(const std::string& path, const Interrupt& interrupt,
+void write_csv(const std::string& path, Existing existing, const Interrupt& interrupt,
                const std::function<void(const TextSink&)>& write) {
     if (path == "-") {
         write([&](std::string_view text) {
@@ -41,7 +44,7 @@ void write_csv(const std::string& path, const Interrupt& interrupt,
         });
         return;
     }
-    TextFile file(path);
+    TextFile file(path, existing);
     write([&](std::string_view text) {
         interrupt.check();
         file.write(text);
@@ -50,53 +53,81 @@ void write_csv(const std::string& path, const Interrupt& interrupt,
 }
 
 /// The motion and, where they are wanted, the events.
-void write_results(const SimulateOptions& options, const Scene& scene, const Motion& motion,
+void write_results(const SimulateOptions& options, const Motion& motion, const FrameRate& rate,
                    const Interrupt& interrupt) {
-    write_csv(options.output, interrupt, [&](const TextSink& sink) {
+    const Existing existing = options.common.existing();
+    write_csv(options.output, existing, interrupt, [&](const TextSink& sink) {
         Progress progress(options.common.progress_mode(), interrupt, "s written",
                           std::optional(motion.duration));
-        write_motion_csv(motion, scene.film.fps.numerator, scene.film.fps.denominator, sink,
+        write_motion_csv(motion, rate.numerator, rate.denominator, sink,
                          [&](double time) { progress.update(time); });
     });
     if (options.events.empty()) return;
-    write_csv(options.events, interrupt,
+    write_csv(options.events, existing, interrupt,
               [&](const TextSink& sink) { write_events_csv(motion, sink); });
 }
 
-/// `--rate` goes through the film's frame rate, so that both understand the same numbers.
-CommonOptions with_rate(const SimulateOptions& options) {
-    CommonOptions common = options.common;
-    if (!options.rate.empty()) common.fps = options.rate;
-    return common;
+/// Rows per second: --rate, or the film's frame rate.
+FrameRate row_rate(const SimulateOptions& options, const Scene& scene) {
+    constexpr double kMostRows = 1e7;  // per second: a tenth of a microsecond
+    if (options.rate.empty()) return scene.film.fps;
+    const std::optional<FrameRate> rate = parse_rate(options.rate, kMostRows);
+    if (!rate)
+        throw Failure(FailureKind::kInput,
+                      fmt::format("--rate {}: rows per second are a number above 0 and at most {}, "
+                                  "such as 1000 or 30000/1001",
+                                  options.rate, number_text(kMostRows)));
+    return *rate;
+}
+
+/// Refuses a file that nobody can mean, before anything is simulated.
+void require_writable_rows(const Scene& scene, const FrameRate& rate, double duration) {
+    constexpr double kMostRows = 1e9;      // some 150 GB
+    constexpr double kBytesInRow = 150.0;  // with 15 numbers, most of 17 digits
+    const double rows = duration * rate.per_second() * static_cast<double>(scene.balls.size());
+    if (rows <= kMostRows) return;
+    throw Failure(
+        FailureKind::kInput,
+        fmt::format("the motion would have {:.4g} rows ({} balls, {:.6g} times a second, "
+                    "{:.6g} s), about {:.4g} GB; at most {:.0e} are written: lower --rate "
+                    "or shorten simulation.duration",
+                    rows, scene.balls.size(), rate.per_second(), duration, rows * kBytesInRow / 1e9,
+                    kMostRows));
 }
 
 int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt) {
     Stats stats;
-    if (options.output == "-" && options.events == "-")
-        throw Failure(FailureKind::kInput, "only one of -o and --events can be standard output");
+    require_distinct({{"-o", options.output},
+                      {"--events", options.events},
+                      {"--stats", options.common.stats_path}},
+                     {{"SCENE", options.scene}});
     for (const std::string& path : {options.output, options.events, options.common.stats_path})
         if (!path.empty() && path != "-") require_writable(path, options.common.overwrite);
 
     std::optional<Scene> scene;
     {
         const CpuTimer timer(stats.scene_cpu_s);
-        scene = load_scene(options.scene, with_rate(options));
+        scene = load_scene(options.scene, options.common);
     }
     if (!scene) return kExitInvalidScene;
+    const FrameRate rate = row_rate(options, *scene);
+    require_writable_rows(*scene, rate, scene->simulation.duration.value_or(0));
     SimulationResult simulated;
     {
         const CpuTimer timer(stats.sim_cpu_s);
         simulated = simulate_shown(*scene, interrupt, options.common.progress_mode());
     }
+    stats.add_warnings(simulated.report, options.common.quiet);
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
 
+    require_writable_rows(*scene, rate, simulated.motion.duration);
     {
         const CpuTimer timer(stats.sinks.write_cpu_s);
-        write_results(options, *scene, simulated.motion, interrupt);
+        write_results(options, simulated.motion, rate, interrupt);
     }
     if (!options.common.stats_path.empty())
-        write_text_file(options.common.stats_path, stats_json(stats, &simulated));
+        write_stats(options.common, stats_json(stats, &simulated));
     return kExitDone;
 }
 
@@ -105,15 +136,23 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
 void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("simulate", "Write motion and events as CSV, no picture");
     auto options = std::make_shared<SimulateOptions>();
+    command->footer(
+        "  carom simulate scene.yaml -o motion.csv --events events.csv\n"
+        "  carom simulate scene.yaml -o - --rate 1000 | head\n");
     command->add_option("scene", options->scene, "Scene file, - for standard input")
         ->required()
         ->type_name("SCENE");
-    command->add_option("-o,--output", options->output, "Motion, or - for standard output")
+    command->add_option("-o,--output", options->output, "File of the motion, - for standard output")
         ->required()
         ->type_name("MOTION.csv");
-    command->add_option("--events", options->events, "Impacts and contacts")
+    command
+        ->add_option("--events", options->events,
+                     "File of impacts and contacts, - for standard output (default: none)")
         ->type_name("EVENTS.csv");
-    command->add_option("--rate", options->rate, "Rows per second (default: film.fps)")
+    command
+        ->add_option("--rate", options->rate,
+                     "Rows per second, at most 1e7, e.g. 1000 or 30000/1001 (default: the scene's "
+                     "film.fps)")
         ->type_name("HZ");
     add_scene_options(*command, options->common);
     add_output_options(*command, options->common);

@@ -91,6 +91,8 @@ std::unique_ptr<FrameSink> make_png_stream() { return std::make_unique<PngStream
 
 std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
                                             int waiting_frames) {
+    if (format == "mkv")
+        return make_threaded_sink(make_film_pipe(STDOUT_FILENO, options), waiting_frames);
     return std::make_unique<FilmStream>(format, options, waiting_frames);
 }
 

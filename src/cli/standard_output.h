@@ -5,12 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "core/reader_gone.h"
 #include "media/frame_sink.h"
 
 namespace carom {
-
-/// The reader of standard output has gone; main ends with exit code 0.
-struct ReaderGone {};
 
 /// Throws ReaderGone on a closed pipe, Failure(kOutput) on any other error.
 void write_standard_output(std::string_view bytes);
@@ -18,8 +16,8 @@ void write_standard_output(std::string_view bytes);
 /// Frames as PNGs, one after another.
 std::unique_ptr<FrameSink> make_png_stream();
 
-/// A film in `format` (mp4 or mkv). It is muxed into a temporary file and copied at the end,
-/// because the index of an MP4 stands first and is known last.
+/// A film in `format` (mp4 or mkv). Matroska goes out as it is made. An MP4 is muxed into a
+/// temporary file and copied at the end, because its index stands first and is known last.
 std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
                                             int waiting_frames);
 

@@ -6,8 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/standard_error.h"
+#include "cli/standard_output.h"
+#include "core/readable.h"
+#include "media/output_file.h"
 #include "media/versions.h"
 #include "render/versions.h"
+#include "sim/tunnelling.h"
 #include "sim/versions.h"
 
 namespace carom {
@@ -63,13 +67,31 @@ void Stats::add_second(const FilmedSecond& filmed) {
                     filmed.report.steps,   filmed.report.impacts, filmed.run.differences};
 }
 
+void Stats::add_warnings(const SimulationReport& report, bool quiet) {
+    const auto found = report.effects.find(kTunnelling);
+    if (found != report.effects.end() && found->second.on && !quiet)
+        fmt::print(stderr, "carom: warning: {}\n", found->second.why);
+}
+
 void Stats::add_verdict(const Scene& scene, const Motion& motion, bool quiet) {
     verdict = judge_rebound(scene, motion);
-    if (verdict && !quiet) say("carom: {}\n", verdict_text(scene, *verdict));
+    if (verdict && !quiet) say("carom: {}\n", readable_message(verdict_text(scene, *verdict)));
 }
 
 void Stats::warn_of_unrest(const SimulationReport& report, bool quiet) {
-    if (!report.unrest.empty() && !quiet) fmt::print(stderr, "carom: warning: {}\n", report.unrest);
+    if (!report.unrest.empty() && !quiet) say("carom: warning: {}\n", report.unrest);
+}
+
+void require_stats_writable(const CommonOptions& options) {
+    if (!options.stats_path.empty() && options.stats_path != "-")
+        require_writable(options.stats_path, options.overwrite);
+}
+
+void write_stats(const CommonOptions& options, const std::string& json) {
+    if (options.stats_path == "-")
+        write_standard_output(json);
+    else
+        write_text_file(options.stats_path, json, Durability::kSynced, options.existing());
 }
 
 std::map<std::string, std::string> library_versions() {
@@ -114,7 +136,8 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
                             {"height", stats.verdict->height_m},
                             {"time", stats.verdict->time_s}};
     }
-    return json.dump(2) + "\n";
+    // File names need be no UTF-8, JSON has to be.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace carom

@@ -39,6 +39,8 @@ struct Stats {
     void add_sink(const SinkTimes& times);
     void add_painter(const Painter& painter);
     void add_second(const FilmedSecond& filmed);
+    /// Says on standard error what of the simulation may be wrong.
+    static void add_warnings(const SimulationReport& report, bool quiet);
     /// Judges the scene's test, if it has one, and says the verdict on standard error.
     void add_verdict(const Scene& scene, const Motion& motion, bool quiet);
     /// Warns on standard error where a motion until rest ended before all rested.
@@ -47,6 +49,10 @@ struct Stats {
 
 /// The JSON text; `result` is empty only when nothing was simulated.
 std::string stats_json(const Stats& stats, const SimulationResult* result);
+
+/// Refuses --stats where it cannot be written, and writes it; "-" is standard output.
+void require_stats_writable(const CommonOptions& options);
+void write_stats(const CommonOptions& options, const std::string& json);
 
 /// Versions of carom and its libraries, name -> version.
 std::map<std::string, std::string> library_versions();

@@ -12,6 +12,7 @@
 #include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
+#include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -40,8 +41,7 @@ struct StillOptions {
 
 /// Refuses a name that is no PNG, and a file that may not be replaced.
 void check_output(const StillOptions& options) {
-    if (!options.common.stats_path.empty())
-        require_writable(options.common.stats_path, options.common.overwrite);
+    require_stats_writable(options.common);
     if (options.output == "-") return;
     if (std::filesystem::path(options.output).extension() != ".png")
         throw Failure(FailureKind::kInput,
@@ -73,6 +73,8 @@ std::vector<double> instants(const StillOptions& options) {
 int still(const StillOptions& options, const Interrupt& interrupt) {
     ask_for_memory_in_large_parts();
     Stats stats;
+    require_distinct({{"-o", options.output}, {"--stats", options.common.stats_path}},
+                     {{"SCENE", options.scene}, {"--against", options.against.scene}});
     check_output(options);
     const DriverPreload driver;
     std::optional<FilmScenes> scenes;
@@ -82,6 +84,9 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     }
     if (!scenes) return kExitInvalidScene;
     const Scene* scene = &scenes->scene;
+    if (scenes->other)
+        require_distinct({{"-o", options.output}, {"--stats", options.common.stats_path}},
+                         {{"against", scenes->other->file}});
 
     SimulationResult simulated;
     std::optional<FilmedSecond> second;
@@ -93,6 +98,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     }
     interrupt.reached("while drawing");
     if (second) stats.add_second(*second);
+    stats.add_warnings(simulated.report, options.common.quiet);
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
     const double duration = simulated.motion.duration;
@@ -116,12 +122,13 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
         if (options.output == "-")
             write_standard_output(encode_png(picture));
         else
-            write_png(options.output, picture);
+            write_png(options.output, picture, PngEffort::kFast, Durability::kSynced,
+                      options.common.existing());
     }
     stats.frames = 1;
     stats.add_painter(painter);
     if (!options.common.stats_path.empty())
-        write_text_file(options.common.stats_path, stats_json(stats, &simulated));
+        write_stats(options.common, stats_json(stats, &simulated));
     end_at_once(kExitDone);
 }
 
@@ -130,15 +137,20 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
 void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("still", "Draw one instant of a scene as a PNG");
     auto options = std::make_shared<StillOptions>();
+    command->footer(
+        "  carom still scene.yaml --time 1.2 -o picture.png\n"
+        "  carom still scene.yaml --time 2 --strobe 0.1 -o strobe.png\n");
     command->add_option("scene", options->scene, "Scene file, - for standard input")
         ->required()
         ->type_name("SCENE");
-    command->add_option("--time", options->time, "Instant of the motion in seconds")
+    command
+        ->add_option("--time", options->time, "Instant of the motion in seconds, from 0 to its end")
         ->required()
         ->type_name("T");
     command
-        ->add_option("--strobe", options->strobe,
-                     "Lay the instants before T over one another, DT seconds apart")
+        ->add_option(
+            "--strobe", options->strobe,
+            "Lay the instants before T over one another, DT seconds apart (default: T alone)")
         ->type_name("DT");
     command->add_option("-o,--output", options->output, "picture.png, or - for standard output")
         ->required()

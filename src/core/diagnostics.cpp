@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/readable.h"
+
 namespace carom {
 
 std::string Diagnostic::text() const {
-    std::string place = file;
+    std::string place = readable(file);
     if (mark.line > 0) place += fmt::format(":{}", mark.line);
     if (mark.line > 0 && mark.column > 0) place += fmt::format(":{}", mark.column);
     const char* word = severity == Severity::kError ? "error" : "warning";
-    return fmt::format("{}: {}: {}", place, word, message);
+    return fmt::format("{}: {}: {}", place, word, readable_message(message));
 }
 
 bool Diagnostics::has_errors() const {

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "core/reader_gone.h"
+
 namespace carom {
 
 namespace {
@@ -62,16 +64,19 @@ void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
     libav().avformat_free_context(context);
 }
 
-FilmMuxer::FilmMuxer(const std::string& file, const std::string& path, FilmContainer container,
+std::string pipe_url(int descriptor) { return fmt::format("pipe:{}", descriptor); }
+
+FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, FilmContainer container,
                      const AVCodecContext& encoder, const std::string& title)
     : path_(path), encoder_time_base_(encoder.time_base) {
     const LibavMessages messages;
     AVFormatContext* context = nullptr;
     check(libav().avformat_alloc_output_context2(&context, nullptr, format_name(container),
-                                                 libav_url(file).c_str()),
+                                                 url.c_str()),
           "make a container for", messages);
     context_.reset(context);
     context->flags |= AVFMT_FLAG_BITEXACT;
+    if (url.starts_with("pipe:")) context->flush_packets = 1;  // somebody waits
 
     AVStream* stream = allocated(libav().avformat_new_stream(context, nullptr));
     check(libav().avcodec_parameters_from_context(stream->codecpar, &encoder),
@@ -101,6 +106,7 @@ void FilmMuxer::write_header(FilmContainer container) {
 FilmMuxer::~FilmMuxer() = default;
 
 void FilmMuxer::check(int result, const char* action, const LibavMessages& messages) const {
+    if (result == AVERROR(EPIPE)) throw ReaderGone{};
     if (result < 0) throw_libav(FailureKind::kOutput, action, path_, result, messages);
 }
 

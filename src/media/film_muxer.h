@@ -13,15 +13,23 @@ enum class FilmContainer { kMp4, kMatroska };
 /// By the extension, in either case. Throws Failure(kInput) that names those that it knows.
 FilmContainer film_container(const std::string& path);
 
+/// One frame a millisecond: FFmpeg's Matroska has no finer time stamps.
+inline constexpr int kMostMatroskaRate = 1000;
+
+/// FFmpeg's name of an open descriptor.
+std::string pipe_url(int descriptor);
+
 /// Writes one stream of packets into a file.
 ///
 /// MP4: moov first, and a time scale in which a frame's duration is a whole number, also for
 /// 30000/1001. Matroska: FFmpeg rounds its times to milliseconds; the frame rate stands beside
-/// them. Neither holds a date or a version, so the bytes follow from the packets alone.
+/// them, and rates above kMostMatroskaRate are refused, where frames would share a time. Neither
+/// holds a date or a version, so the bytes follow from the packets alone.
 class FilmMuxer {
   public:
-    /// Writes to `file`; `path` is for messages. `title` may be empty. Throws Failure(kOutput).
-    FilmMuxer(const std::string& file, const std::string& path, FilmContainer container,
+    /// Writes to `url` (libav_url() or pipe_url()); `path` is for messages. `title` may be empty.
+    /// Throws Failure(kOutput).
+    FilmMuxer(const std::string& url, const std::string& path, FilmContainer container,
               const AVCodecContext& encoder, const std::string& title);
     ~FilmMuxer();
     FilmMuxer(const FilmMuxer&) = delete;

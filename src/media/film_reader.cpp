@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "media/libav.h"
@@ -55,10 +57,21 @@ class FilmReader::Impl {
             if (result != AVERROR(EAGAIN)) {
                 check(result, messages);
                 convert(image, messages);
+                if (!first_pts_) first_pts_ = frame_->best_effort_timestamp;
                 return true;
             }
             feed(messages);
         }
+    }
+
+    double tick_s() const { return av_q2d(input_->streams[stream_]->time_base); }
+    /// A stamp is off by up to half a tick, and so is the first one unless it is 0.
+    double time_error_s() const { return first_pts_ == 0 ? tick_s() / 2 : tick_s(); }
+    double time_s() const {
+        const std::int64_t pts = frame_->best_effort_timestamp;
+        if (!first_pts_ || pts == AV_NOPTS_VALUE || *first_pts_ == AV_NOPTS_VALUE)
+            return std::numeric_limits<double>::quiet_NaN();
+        return static_cast<double>(pts - *first_pts_) * tick_s();
     }
 
   private:
@@ -140,6 +153,7 @@ class FilmReader::Impl {
     CodecPtr decoder_;
     PacketPtr packet_;
     FramePtr frame_;
+    std::optional<std::int64_t> first_pts_;
     ScalerPtr scaler_;
     int width_ = 0;
     int height_ = 0;
@@ -152,5 +166,7 @@ FilmReader::FilmReader(FilmReader&&) noexcept = default;
 FilmReader& FilmReader::operator=(FilmReader&&) noexcept = default;
 
 bool FilmReader::next(Image& frame) { return impl_->next(frame); }
+double FilmReader::time_s() const { return impl_->time_s(); }
+double FilmReader::time_error_s() const { return impl_->time_error_s(); }
 
 }  // namespace carom

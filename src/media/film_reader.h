@@ -16,6 +16,10 @@ class FilmReader {
     FilmReader(FilmReader&&) noexcept;
     FilmReader& operator=(FilmReader&&) noexcept;
     bool next(Image& frame);  ///< false at the end
+    /// When the frame that next() gave is shown, in seconds after the first one; not a number where
+    /// the film does not say.
+    double time_s() const;
+    double time_error_s() const;  ///< how far time_s() may be off: stamps are whole ticks
   private:
     class Impl;
     std::unique_ptr<Impl> impl_;

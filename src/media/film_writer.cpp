@@ -1,4 +1,6 @@
 // The film as a sink of frames: encoder, container, and a name that appears at the end.
+#include <fmt/format.h>
+
 #include "media/film_muxer.h"
 #include "media/frame_sink.h"
 #include "media/output_file.h"
@@ -8,32 +10,24 @@ namespace carom {
 
 namespace {
 
-class FilmWriter final : public FrameSink {
+/// Frames in, a container out.
+class FilmEncoding {
   public:
-    FilmWriter(const std::string& path, const FilmOptions& options)
-        : container_(film_container(path)),
-          encoder_(path, options, FilmMuxer::wants_global_header(container_)),
-          file_(path),
-          muxer_(file_.temporary_path(), path, container_, encoder_.context(), options.title) {}
+    /// `url` is where the container goes; `path` is for messages.
+    FilmEncoding(const std::string& url, const std::string& path, FilmContainer container,
+                 VideoEncoder& encoder, const FilmOptions& options)
+        : encoder_(encoder), muxer_(url, path, container, encoder.context(), options.title) {}
 
-    void write(std::int64_t, const Image& frame) override {
+    void write(const Image& frame) {
         encoder_.encode(frame, [this](AVPacket& packet) { mux(packet); });
     }
-
-    void finish() override {
-        close();
-        file_.commit();
+    void close() {
+        encoder_.flush([this](AVPacket& packet) { mux(packet); });
+        const double begin = calling_thread_cpu_s();
+        muxer_.close();
+        write_cpu_s_ += calling_thread_cpu_s() - begin;
     }
-
-    std::string keep_partial() override {
-        if (encoder_.frames() == 0) return "";
-        const std::string kept = partial_path(file_.path());
-        close();
-        file_.commit_as(kept);
-        return kept;
-    }
-
-    SinkTimes times() const override {
+    SinkTimes times() const {
         return {encoder_.convert_cpu_s(), encoder_.encode_cpu_s(), write_cpu_s_};
     }
 
@@ -44,23 +38,82 @@ class FilmWriter final : public FrameSink {
         write_cpu_s_ += calling_thread_cpu_s() - begin;
     }
 
-    void close() {
-        encoder_.flush([this](AVPacket& packet) { mux(packet); });
-        const double begin = calling_thread_cpu_s();
-        muxer_.close();
-        write_cpu_s_ += calling_thread_cpu_s() - begin;
-    }
-
-    FilmContainer container_;
-    VideoEncoder encoder_;
-    OutputFile file_;
+    VideoEncoder& encoder_;
     FilmMuxer muxer_;
     double write_cpu_s_ = 0;
 };
 
+class FilmWriter final : public FrameSink {
+  public:
+    FilmWriter(const std::string& path, const FilmOptions& options)
+        : container_(film_container(path)),
+          encoder_(path, options, FilmMuxer::wants_global_header(container_)),
+          file_(path, options.existing),
+          film_(libav_url(file_.temporary_path()), path, container_, encoder_, options) {}
+
+    void write(std::int64_t, const Image& frame) override { film_.write(frame); }
+
+    void finish() override {
+        film_.close();
+        file_.commit();
+    }
+
+    std::string keep_partial() override {
+        if (encoder_.frames() == 0) return "";
+        film_.close();
+        return file_.commit_partial();
+    }
+
+    SinkTimes times() const override { return film_.times(); }
+
+  private:
+    FilmContainer container_;
+    VideoEncoder encoder_;
+    OutputFile file_;
+    FilmEncoding film_;
+};
+
+class FilmPipe final : public FrameSink {
+  public:
+    FilmPipe(int descriptor, const FilmOptions& options)
+        : encoder_(kName, options, FilmMuxer::wants_global_header(FilmContainer::kMatroska)),
+          film_(pipe_url(descriptor), kName, FilmContainer::kMatroska, encoder_, options) {}
+
+    void write(std::int64_t, const Image& frame) override { film_.write(frame); }
+    void finish() override { film_.close(); }
+    std::string keep_partial() override {
+        film_.close();
+        return kName;
+    }
+    SinkTimes times() const override { return film_.times(); }
+
+  private:
+    static constexpr const char* kName = "standard output";
+    VideoEncoder encoder_;
+    FilmEncoding film_;
+};
+
 }  // namespace
 
+void require_film(const std::string& path, const FilmOptions& options) {
+    require_film_options(options);
+    const double rate = static_cast<double>(options.fps_numerator) / options.fps_denominator;
+    if (film_container(path) == FilmContainer::kMatroska && rate > kMostMatroskaRate)
+        throw Failure(
+            FailureKind::kInput,
+            fmt::format("'{}': Matroska counts milliseconds, and at {:.6g} frames/s "
+                        "several frames would have one time; write an .mp4, or at most {} "
+                        "frames/s",
+                        path, rate, kMostMatroskaRate));
+}
+
+std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const FilmOptions& options) {
+    require_film("standard output.mkv", options);
+    return std::make_unique<FilmPipe>(descriptor, options);
+}
+
 std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options) {
+    require_film(path, options);
     return std::make_unique<FilmWriter>(path, options);
 }
 

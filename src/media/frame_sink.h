@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/image.h"
+#include "media/output_file.h"
 
 namespace carom {
 
@@ -28,7 +30,7 @@ class FrameSink {
     virtual void write_swapped(std::int64_t number, Image& frame) { write(number, frame); }
     /// Makes the output appear under its name; must be called, so that closing can fail out loud.
     virtual void finish() = 0;
-    /// After an interrupt: keeps what is playable (a film as OUT.partial.EXT) and returns its path,
+    /// After an interrupt: keeps what is playable (a film as its partial_path()), returns its path,
     /// or "" when nothing was worth keeping.
     virtual std::string keep_partial() = 0;
     virtual SinkTimes times() const = 0;
@@ -39,10 +41,11 @@ struct FilmOptions {
     int height_px = 720;
     int fps_numerator = 60;
     int fps_denominator = 1;
-    int crf = 18;                     ///< 1 (best) ... 51 (smallest)
-    std::string preset = "veryfast";  ///< of x264
-    int threads = 0;                  ///< of the encoder; 0: as many as there are processors
-    std::string title;                ///< metadata, empty for none
+    int crf = 18;                            ///< 1 (best) ... 51 (smallest)
+    std::string preset = "veryfast";         ///< of x264
+    int threads = 0;                         ///< of the encoder; 0: as many as there are processors
+    std::string title;                       ///< metadata, empty for none
+    Existing existing = Existing::kReplace;  ///< what stands under the film's name
 };
 
 /// H.264 in MP4 (moov first) or Matroska, by the extension of `path`: yuv420p, BT.709 converted and
@@ -50,15 +53,29 @@ struct FilmOptions {
 /// Throws Failure(kRun) when libx264 is missing.
 std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options);
 
+/// The same in Matroska into an open pipe, as the frames come: without a length in its header, and
+/// without an index. `descriptor` stays open. Throws ReaderGone when nobody reads any more.
+std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const FilmOptions& options);
+
+/// Refuses what no film of this name can have, before any work: Failure(kInput) for an odd size, an
+/// unknown preset, or more frames a second than the container has time stamps for.
+void require_film(const std::string& path, const FilmOptions& options);
+
 /// One PNG per frame; `pattern` holds %05d (or %d, %0Nd), or names a folder, which is made if need
 /// be and gets frame_%05d.png. "%%" stands for a percent sign. `threads` encode beside the caller
 /// (0: one per processor, at most 8); each keeps two frames in memory. A frame appears under its
 /// name only when whole; keep_partial() keeps all that are, and returns the folder.
 /// Throws Failure(kInput) for a pattern that is none, Failure(kOutput) for a folder that cannot be
 /// made.
-std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern, int threads = 0);
+std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern, int threads = 0,
+                                             Existing existing = Existing::kReplace);
 
 /// The path of one frame of a PNG sequence. Throws Failure(kInput) as make_png_sequence() does.
 std::string sequence_path(const std::string& pattern, std::int64_t number);
+
+/// The folder of a sequence, "." for the current one; and the number of the frame that has this
+/// name in it, none where no frame has. Both throw as make_png_sequence() does.
+std::string sequence_folder(const std::string& pattern);
+std::optional<std::int64_t> sequence_number(const std::string& pattern, const std::string& name);
 
 }  // namespace carom

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -61,17 +63,68 @@ class Descriptor {
     int fd_;
 };
 
+/// The longest name in the folder of `path`, in bytes.
+std::size_t longest_name(const std::string& path) {
+    constexpr std::size_t kUsual = 255;
+    const long longest = ::pathconf(folder_of(path).c_str(), _PC_NAME_MAX);
+    return longest > 0 ? static_cast<std::size_t>(longest) : kUsual;
+}
+
+/// `stem` + `middle` + `extension` with as much of the stem, and then of the extension, as fits.
+std::string fitting_name(std::string stem, const std::string& middle, std::string extension,
+                         std::size_t longest) {
+    const auto cut = [&](std::string& text) {
+        const std::size_t size = stem.size() + middle.size() + extension.size();
+        std::size_t kept = text.size() - std::min(text.size(), size > longest ? size - longest : 0);
+        // Never inside a character of UTF-8.
+        while (kept > 0 && kept < text.size() &&
+               (static_cast<unsigned char>(text[kept]) & 0xC0U) == 0x80U)
+            --kept;
+        text.resize(kept);
+    };
+    cut(stem);
+    cut(extension);
+    return stem + middle + extension;
+}
+
+/// Renames, unless something stands under the new name: EEXIST then, and 0 when done.
+int rename_to_free_name(const std::string& from, const std::string& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+    if (errno != EINVAL && errno != ENOSYS) return errno;
+    // A file system without it: a second name that must be new, then the first one goes.
+    if (::link(from.c_str(), to.c_str()) == 0) return ::unlink(from.c_str()) == 0 ? 0 : errno;
+    if (errno != EPERM && errno != EOPNOTSUPP && errno != ENOSYS) return errno;
+    // One without links either: another program may come between these two lines.
+    struct stat info = {};
+    if (::lstat(to.c_str(), &info) == 0) return EEXIST;
+    return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+/// Gives the new file what belongs to the one that it replaces.
+void take_over_mode(const Descriptor& file, const std::string& target) {
+    constexpr mode_t kPermissions = 0777;
+    struct stat old = {}, own = {};
+    if (::stat(target.c_str(), &old) != 0 || ::fstat(file.get(), &own) != 0) return;
+    // Only root gives files away; whoever may replace another's file gets it as his own.
+    const bool owned = (old.st_uid == own.st_uid && old.st_gid == own.st_gid) ||
+                       ::fchown(file.get(), old.st_uid, old.st_gid) == 0 ||
+                       ::fchown(file.get(), static_cast<uid_t>(-1), old.st_gid) == 0;
+    // Of another group: what the old group might do is nobody's business.
+    const mode_t mode = old.st_mode & (owned ? kPermissions : kPermissions & ~mode_t{070});
+    ::fchmod(file.get(), mode);
+}
+
 /// Reserves a name beside `target` that no other process or thread has.
 std::string create_temporary(const std::string& path, const std::string& target) {
     constexpr int kMostAttempts = 10000;
-    constexpr std::size_t kLongestStem = 150;  // names end at 255 bytes; this leaves the rest room
     const fs::path name = fs::path(target).filename();
-    const std::string stem = name.stem().string().substr(0, kLongestStem);
+    const std::size_t longest = longest_name(target);
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
         const std::string count = attempt == 0 ? "" : fmt::format("-{}", attempt);
         const std::string temporary =
             (fs::path(target).parent_path() /
-             fmt::format(".{}.tmp{}{}{}", stem, ::getpid(), count, name.extension().string()))
+             fitting_name("." + name.stem().string(), fmt::format(".tmp{}{}", ::getpid(), count),
+                          name.extension().string(), longest))
                 .string();
         const Descriptor file(
             ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
@@ -114,8 +167,21 @@ void require_writable(const std::string& path, bool overwrite) {
     if (::access(folder.c_str(), W_OK | X_OK) != 0) fail("write into the folder", folder, errno);
 }
 
-OutputFile::OutputFile(std::string path)
-    : path_(std::move(path)), target_path_(follow_links(path_)) {
+void require_folder(const std::string& path) {
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_directory(path, error))
+        fail("make the folder", path, EEXIST);
+}
+
+void make_folder(const std::string& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (!error && !fs::is_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
+    if (error) fail("make the folder", path, error.value());
+}
+
+OutputFile::OutputFile(std::string path, Existing existing)
+    : path_(std::move(path)), target_path_(follow_links(path_)), existing_(existing) {
     struct stat info = {};
     const bool exists = ::stat(target_path_.c_str(), &info) == 0;
     if (exists && S_ISDIR(info.st_mode)) fail("write", path_, EISDIR);
@@ -132,6 +198,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       target_path_(std::move(other.target_path_)),
       temporary_path_(std::exchange(other.temporary_path_, {})),
+      existing_(other.existing_),
       in_place_(other.in_place_) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
@@ -140,6 +207,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
     path_ = std::move(other.path_);
     target_path_ = std::move(other.target_path_);
     temporary_path_ = std::exchange(other.temporary_path_, {});
+    existing_ = other.existing_;
     in_place_ = other.in_place_;
     return *this;
 }
@@ -151,18 +219,45 @@ void OutputFile::commit_as(const std::string& path) {
             Durability::kSynced);
 }
 
-void OutputFile::publish(const std::string& target, Durability durability) {
-    if (!in_place_) {
-        if (durability == Durability::kSynced) {
-            const Descriptor file(::open(temporary_path_.c_str(), O_RDONLY | O_CLOEXEC));
-            // EINVAL: a file system that knows no sync.
-            if (file.get() < 0 || (::fsync(file.get()) != 0 && errno != EINVAL))
-                fail("write", path_, errno);
-        }
-        if (::rename(temporary_path_.c_str(), target.c_str()) != 0) fail("write", target, errno);
-        temporaries::forget(temporary_path_);
+std::string OutputFile::commit_partial() {
+    constexpr int kMost = 10000;
+    for (int number = 1;; ++number) {
+        const std::string name = fs::path(partial_path(target_path_, number)).filename().string();
+        const fs::path target = fs::path(target_path_).parent_path() / name;
+        const int error = try_publish(target.string(), Durability::kSynced);
+        if (error == 0) return (fs::path(path_).parent_path() / name).string();
+        if (error != EEXIST || number == kMost) fail("write", target.string(), error);
     }
-    temporary_path_.clear();
+}
+
+int OutputFile::try_publish(const std::string& target, Durability durability) {
+    if (in_place_) return 0;
+    {
+        const Descriptor file(::open(temporary_path_.c_str(), O_RDONLY | O_CLOEXEC));
+        if (file.get() < 0) return errno;
+        if (existing_ == Existing::kReplace) take_over_mode(file, target);
+        // EINVAL: a file system that knows no sync.
+        if (durability == Durability::kSynced && ::fsync(file.get()) != 0 && errno != EINVAL)
+            return errno;
+    }
+    int error = 0;
+    if (existing_ == Existing::kKeep)
+        error = rename_to_free_name(temporary_path_, target);
+    else if (::rename(temporary_path_.c_str(), target.c_str()) != 0)
+        error = errno;
+    if (error == 0) {
+        temporaries::forget(temporary_path_);
+        temporary_path_.clear();
+    }
+    return error;
+}
+
+void OutputFile::publish(const std::string& target, Durability durability) {
+    const int error = try_publish(target, durability);
+    if (error == EEXIST)
+        throw Failure(FailureKind::kOutput,
+                      fmt::format("'{}' has appeared meanwhile; -y overwrites it", target));
+    if (error != 0) fail("write", target, error);
 }
 
 void OutputFile::discard() noexcept {
@@ -173,14 +268,17 @@ void OutputFile::discard() noexcept {
     temporary_path_.clear();
 }
 
-std::string partial_path(const std::string& path) {
+std::string partial_path(const std::string& path, int number) {
     const fs::path whole = path;
-    const std::string name = whole.stem().string() + ".partial" + whole.extension().string();
+    const std::string middle = number == 1 ? ".partial" : fmt::format(".partial-{}", number);
+    const std::string name =
+        fitting_name(whole.stem().string(), middle, whole.extension().string(), longest_name(path));
     return (whole.parent_path() / name).string();
 }
 
-void write_text_file(const std::string& path, const std::string& text, Durability durability) {
-    OutputFile file(path);
+void write_text_file(const std::string& path, const std::string& text, Durability durability,
+                     Existing existing) {
+    OutputFile file(path, existing);
     write_all(path, file.temporary_path(), text);
     file.commit(durability);
 }

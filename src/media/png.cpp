@@ -213,9 +213,9 @@ std::string encode_png(const Image& image, PngEffort effort) {
     return std::move(writer.bytes());
 }
 
-void write_png(const std::string& path, const Image& image, PngEffort effort,
-               Durability durability) {
-    write_text_file(path, encode_png(image, effort), durability);
+void write_png(const std::string& path, const Image& image, PngEffort effort, Durability durability,
+               Existing existing) {
+    write_text_file(path, encode_png(image, effort), durability, existing);
 }
 
 Image read_png(const std::string& path) {

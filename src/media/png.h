@@ -13,11 +13,10 @@ namespace carom {
 enum class PngEffort { kFast, kSmall };
 
 /// Writes `image` (alpha only where a pixel is not opaque) to `path`, whole or not at all.
-/// Replaces an existing file: whether that is allowed is decided before drawing (OutputFile).
 /// Tagged as sRGB. PNG's alpha is straight: a premultiplied channel survives the way there and back
 /// exactly. Throws Failure(kOutput).
 void write_png(const std::string& path, const Image& image, PngEffort effort = PngEffort::kFast,
-               Durability durability = Durability::kSynced);
+               Durability durability = Durability::kSynced, Existing existing = Existing::kReplace);
 
 /// The encoded bytes, for standard output.
 std::string encode_png(const Image& image, PngEffort effort = PngEffort::kFast);

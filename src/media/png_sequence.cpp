@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <mutex>
 #include <thread>
@@ -84,6 +85,10 @@ Pattern sequence_pattern(const std::string& text) {
         pattern.before = (fs::path(folder) / pattern.before).string();
     } else if (pattern.after.find('/') != std::string::npos) {
         refuse(text, "the number must stand in the file's name, not in a folder's");
+    } else if (!pattern.after.ends_with(".png")) {
+        refuse(text,
+               "frames are PNGs: the name must end in .png, such as frame_%05d.png (and %% is "
+               "a percent sign)");
     }
     return pattern;
 }
@@ -99,12 +104,13 @@ int thread_count(int wanted) {
 
 class PngSequence final : public FrameSink {
   public:
-    PngSequence(const std::string& text, int threads)
+    PngSequence(const std::string& text, int threads, Existing existing)
         : pattern_(sequence_pattern(text)),
+          existing_(existing),
           folder_(fs::path(frame_path(pattern_, 0)).parent_path().string()),
           workers_(thread_count(threads), thread_count(threads),
                    [this](int, std::int64_t number, const Image& frame) { save(number, frame); }) {
-        prepare_folder(folder_);
+        if (!folder_.empty()) prepare_folder(folder_);
     }
 
     void write(std::int64_t number, const Image& frame) override {
@@ -135,7 +141,7 @@ class PngSequence final : public FrameSink {
         const double begin = calling_thread_cpu_s();
         const std::string bytes = encode_png(frame);
         const double encoded = calling_thread_cpu_s();
-        write_text_file(frame_path(pattern_, number), bytes, Durability::kUnsynced);
+        write_text_file(frame_path(pattern_, number), bytes, Durability::kUnsynced, existing_);
         const double written = calling_thread_cpu_s();
 
         const std::lock_guard lock(mutex_);
@@ -145,6 +151,7 @@ class PngSequence final : public FrameSink {
     }
 
     const Pattern pattern_;
+    const Existing existing_;
     const std::string folder_;
     mutable std::mutex mutex_;
     SinkTimes times_;
@@ -158,8 +165,28 @@ std::string sequence_path(const std::string& pattern, std::int64_t number) {
     return frame_path(sequence_pattern(pattern), number);
 }
 
-std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern, int threads) {
-    return std::make_unique<PngSequence>(pattern, threads);
+std::string sequence_folder(const std::string& pattern) {
+    const std::string folder = fs::path(sequence_path(pattern, 0)).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+std::optional<std::int64_t> sequence_number(const std::string& pattern, const std::string& name) {
+    Pattern names = sequence_pattern(pattern);
+    names.before = fs::path(names.before + "x").filename().string();
+    names.before.pop_back();
+    if (name.size() <= names.before.size() + names.after.size()) return std::nullopt;
+    const char* first = name.data() + names.before.size();
+    const char* last = name.data() + name.size() - names.after.size();
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(first, last, number);
+    if (error != std::errc() || end != last || number < 0) return std::nullopt;
+    if (frame_path(names, number) != name) return std::nullopt;
+    return number;
+}
+
+std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern, int threads,
+                                             Existing existing) {
+    return std::make_unique<PngSequence>(pattern, threads, existing);
 }
 
 }  // namespace carom

@@ -12,8 +12,9 @@
 
 namespace carom {
 
-TextFile::TextFile(const std::string& path)
-    : file_(path), descriptor_(::open(file_.temporary_path().c_str(), O_WRONLY | O_CLOEXEC)) {
+TextFile::TextFile(const std::string& path, Existing existing)
+    : file_(path, existing),
+      descriptor_(::open(file_.temporary_path().c_str(), O_WRONLY | O_CLOEXEC)) {
     if (descriptor_ < 0) fail();
 }
 

@@ -12,7 +12,7 @@ namespace carom {
 /// with Failure(kOutput), the path and the system's text.
 class TextFile {
   public:
-    explicit TextFile(const std::string& path);
+    explicit TextFile(const std::string& path, Existing existing = Existing::kReplace);
     ~TextFile();
     TextFile(const TextFile&) = delete;
     TextFile& operator=(const TextFile&) = delete;

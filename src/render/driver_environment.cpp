@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <latch>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -22,6 +24,9 @@ namespace {
 
 /// llvmpipe makes no more in any release that is in use.
 constexpr unsigned kMostThreads = 16;
+
+/// How long a new thread may take to run first, on a machine that is busy.
+constexpr std::chrono::seconds kPatience{5};
 
 /// They pretend other versions or extensions than the driver has (it crashes where shaders then do
 /// not compile), or leave out parts of drawing.
@@ -52,6 +57,20 @@ unsigned wanted_threads() {
     return text == nullptr ? 0 : static_cast<unsigned>(std::max(std::atoi(text), 0));
 }
 
+/// Those of this process that carry the driver's name; none where the system does not tell.
+std::optional<unsigned> threads_of_driver() {
+    std::error_code error;
+    unsigned found = 0;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+        std::ifstream file(task.path() / "comm");
+        std::string name;
+        std::getline(file, name);
+        found += name.find("llvmpipe") != std::string::npos;
+    }
+    if (error) return std::nullopt;
+    return found;
+}
+
 }  // namespace
 
 void set_driver_environment(bool quick_compile) {
@@ -73,20 +92,19 @@ void set_driver_environment(bool quick_compile) {
 
 void check_driver_threads() {
     const unsigned wanted = std::min(wanted_threads(), kMostThreads);
-    std::error_code error;
-    unsigned found = 0;
-    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
-        std::ifstream file(task.path() / "comm");
-        std::string name;
-        std::getline(file, name);
-        found += name.find("llvmpipe") != std::string::npos;
+    // A thread takes its name when it first runs, which may be after this one looks.
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    std::optional<unsigned> found = threads_of_driver();
+    while (found && *found < wanted && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        found = threads_of_driver();
     }
-    if (error || found >= wanted) return;
+    if (!found || *found >= wanted) return;
     throw Failure(
         FailureKind::kRun,
         fmt::format("the driver could make {} of its {} threads; the system gives no more "
                     "(LP_NUM_THREADS=0 draws without)",
-                    found, wanted));
+                    *found, wanted));
 }
 
 }  // namespace carom

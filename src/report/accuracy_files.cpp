@@ -138,7 +138,8 @@ std::string accuracy_json(const AccuracyReport& report) {
     json["runs"] = nlohmann::ordered_json::array();
     for (const AccuracyRun& run : report.runs) json["runs"].push_back(run_json(run));
     json["summary"] = accuracy_summary(report);
-    return json.dump(2) + "\n";
+    // File names need be no UTF-8, JSON has to be.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::optional<Plot> work_precision_plot(const AccuracyReport& report, const std::string& measure,
@@ -168,18 +169,19 @@ std::optional<Plot> work_precision_plot(const AccuracyReport& report, const std:
 }
 
 std::vector<std::string> write_accuracy(const AccuracyReport& report, const std::string& folder,
-                                        const std::stop_token& stop) {
+                                        Existing existing, const std::stop_token& stop) {
     std::vector<std::string> written;
     const auto path = [&](const std::string& name) {
         written.push_back(name);
         return (std::filesystem::path(folder) / name).string();
     };
-    write_text_file(path("accuracy.csv"), csv_text(accuracy_table(report)));
-    write_text_file(path("accuracy.json"), accuracy_json(report));
+    write_text_file(path("accuracy.csv"), csv_text(accuracy_table(report)), Durability::kSynced,
+                    existing);
+    write_text_file(path("accuracy.json"), accuracy_json(report), Durability::kSynced, existing);
     const auto draw = [&](const char* stem, const std::optional<Plot>& plot) {
         if (!plot) return;
         for (const char* extension : {".svg", ".png"})
-            write_plot(*plot, path(std::string(stem) + extension), stop);
+            write_plot(*plot, path(std::string(stem) + extension), existing, stop);
     };
     draw("accuracy", work_precision_plot(report, "position error / extent", position_of));
     draw("accuracy-peaks", work_precision_plot(report, "relative error of peaks", peak_of));

@@ -27,6 +27,7 @@ std::optional<Plot> work_precision_plot(const AccuracyReport& report, const std:
 /// Writes the files into `folder`, which exists; peaks are left out where the scene has none.
 /// Returns the names written.
 std::vector<std::string> write_accuracy(const AccuracyReport& report, const std::string& folder,
+                                        Existing existing = Existing::kReplace,
                                         const std::stop_token& stop = {});
 
 }  // namespace carom

@@ -73,7 +73,8 @@ std::string fit_json(const RestitutionFit& fit, const VirtualBodyLine& line,
                      {"velocity_m_s", line.point.velocity_m_s}};
     json["material"] = name;
     json["snippet"] = material_snippet(name, line);
-    return json.dump(2) + "\n";
+    // File names need be no UTF-8, JSON has to be.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 Plot fit_plot(const RestitutionFit& fit, const VirtualBodyLine& line) {

@@ -18,6 +18,7 @@
 #include "core/failure.h"
 #include "core/temporary_folder.h"
 #include "media/output_file.h"
+#include "media/png.h"
 #include "report/plot.h"
 
 namespace carom {
@@ -156,6 +157,33 @@ std::string settled(std::string bytes, PlotFormat format) {
     return bytes;
 }
 
+/// Whether the file has its end: gnuplot does not look whether what it wrote has reached the disk.
+bool is_whole(const std::string& bytes, const std::string& path, PlotFormat format) {
+    const auto ends_with = [&bytes](std::string_view end) {
+        const std::size_t last = bytes.find_last_not_of(" \r\n");
+        return last != std::string::npos &&
+               std::string_view(bytes).substr(0, last + 1).ends_with(end);
+    };
+    if (format == PlotFormat::kSvg) return ends_with("</svg>");
+    if (format == PlotFormat::kPdf) return ends_with("%%EOF");
+    try {
+        read_png(path);
+    } catch (const Failure&) {
+        return false;
+    }
+    return true;
+}
+
+/// Says what is wrong with a plot that is not whole. A disk without room is the user's to mend.
+[[noreturn]] void fail_unfinished(const std::string& path, const std::string& drawn,
+                                  std::size_t bytes) {
+    throw Failure(
+        FailureKind::kOutput,
+        fmt::format("drawing {}: gnuplot wrote {} bytes of the plot to {} and no more: is "
+                    "there room for temporary files (TMPDIR)?",
+                    path, bytes, fs::path(drawn).parent_path().string()));
+}
+
 std::string read_whole(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -178,7 +206,8 @@ void run_gnuplot(const std::string& script, const std::string& attempt,
     fail(fmt::format("{}: gnuplot failed: {}", attempt, finished.errors));
 }
 
-void write_plot(const Plot& plot, const std::string& path, const std::stop_token& stop) {
+void write_plot(const Plot& plot, const std::string& path, Existing existing,
+                const std::stop_token& stop) {
     const std::optional<PlotFormat> format = plot_format_of(path);
     if (!format)
         throw Failure(FailureKind::kInput,
@@ -186,10 +215,10 @@ void write_plot(const Plot& plot, const std::string& path, const std::stop_token
     const TemporaryFolder folder(FailureKind::kRun);
     const std::string drawn = folder.file("plot");
     run_gnuplot(gnuplot_script(plot, *format, drawn), "drawing " + path, stop);
-    const std::string bytes = settled(read_whole(drawn), *format);
-    // gnuplot reports some errors of its terminals only as text, and writes nothing.
-    if (bytes.empty()) fail(fmt::format("drawing {}: gnuplot wrote nothing", path));
-    write_text_file(path, bytes, Durability::kUnsynced);
+    const std::string made = read_whole(drawn);
+    if (!is_whole(made, drawn, *format)) fail_unfinished(path, drawn, made.size());
+    const std::string bytes = settled(made, *format);
+    write_text_file(path, bytes, Durability::kUnsynced, existing);
 }
 
 void require_gnuplot(const std::stop_token& stop) { run({"gnuplot", "--version"}, stop); }

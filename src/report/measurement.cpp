@@ -114,6 +114,21 @@ char separator_of(const std::string& header) {
     return ',';
 }
 
+/// One line without its end, false behind the last. Lines that no measurement has are refused
+/// before they fill the memory.
+bool next_line(std::istream& file, std::string& line, const std::string& where) {
+    constexpr std::size_t kLongest = 100'000;  // bytes
+    line.clear();
+    std::streambuf* bytes = file.rdbuf();
+    for (int c = bytes->sbumpc(); c != std::char_traits<char>::eof(); c = bytes->sbumpc()) {
+        if (c == '\n') return true;
+        if (line.size() == kLongest)
+            fail(where, fmt::format("the line has more than {} characters", kLongest));
+        line += static_cast<char>(c);
+    }
+    return !line.empty();
+}
+
 class CsvReader {
   public:
     explicit CsvReader(std::string path) : path_(std::move(path)) {}
@@ -121,8 +136,10 @@ class CsvReader {
     Measurements read() {
         std::ifstream file(path_);
         if (!file) fail(path_, "no such file, or it cannot be read");
-        for (std::string line; std::getline(file, line);) {
-            ++number_;
+        constexpr int kMostLines = 1'000'000;
+        for (std::string line; next_line(file, line, fmt::format("{}:{}", path_, number_ + 1));) {
+            if (++number_ > kMostLines)
+                fail(path_, fmt::format("the file has more than {} lines", kMostLines));
             if (number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
             const std::string_view text = trimmed(line);
             if (text.empty() || text.front() == '#') continue;

@@ -37,9 +37,9 @@ bool fits(const PaperItem& item, const std::string& word) {
 /// What several items need is worked out once, when the first asks for it.
 class PaperMaker {
   public:
-    PaperMaker(std::string folder, const std::stop_token& stop,
+    PaperMaker(std::string folder, Existing existing, const std::stop_token& stop,
                const std::function<void(const std::string&)>& report)
-        : folder_(std::move(folder)), stop_(stop), report_(report) {}
+        : folder_(std::move(folder)), existing_(existing), stop_(stop), report_(report) {}
 
     void make(const PaperItem& item);
 
@@ -66,6 +66,7 @@ class PaperMaker {
     void make_file(const PaperItem& item, const std::string& file);
 
     std::string folder_;
+    Existing existing_;
     const std::stop_token& stop_;
     const std::function<void(const std::string&)>& report_;
     std::map<std::string, PaperRun> runs_;
@@ -95,19 +96,19 @@ void PaperMaker::make_file(const PaperItem& item, const std::string& file) {
     if (item.group == "plots") {
         const Figure drawn = figure(item.name);
         if (ending == ".csv")
-            write_text_file(path(file), csv_text(drawn.data), Durability::kUnsynced);
+            write_text_file(path(file), csv_text(drawn.data), Durability::kUnsynced, existing_);
         else
-            write_plot(drawn.plot, path(file), stop_);
+            write_plot(drawn.plot, path(file), existing_, stop_);
     } else if (item.group == "tables") {
         const TextTable made = table(item.name);
         write_text_file(path(file), ending == ".md" ? markdown_text(made) : csv_text(made),
-                        Durability::kUnsynced);
+                        Durability::kUnsynced, existing_);
     } else if (item.group == "films") {
-        film_motion(run_of(item.name), path(file), stop_);
+        film_motion(run_of(item.name), path(file), existing_, stop_);
     } else {
         const Image picture = item.name == "figure8" ? figure8_picture(run_of("figure8"))
                                                      : figure9_montage(run_of("figure9"));
-        write_png(path(file), picture, PngEffort::kSmall, Durability::kUnsynced);
+        write_png(path(file), picture, PngEffort::kSmall, Durability::kUnsynced, existing_);
     }
     report_(file);
 }
@@ -156,10 +157,10 @@ std::vector<PaperItem> choose_paper_items(const std::vector<std::string>& words)
     return chosen;
 }
 
-void make_paper(const std::vector<PaperItem>& items, const std::string& folder,
+void make_paper(const std::vector<PaperItem>& items, const std::string& folder, Existing existing,
                 const std::stop_token& stop,
                 const std::function<void(const std::string&)>& report) {
-    PaperMaker maker(folder, stop, report);
+    PaperMaker maker(folder, existing, stop, report);
     for (const PaperItem& item : items) maker.make(item);
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "media/output_file.h"
+
 namespace carom {
 
 /// One thing to make, with all its files.
@@ -24,8 +26,8 @@ std::vector<PaperItem> paper_items();
 std::vector<PaperItem> choose_paper_items(const std::vector<std::string>& words);
 
 /// Makes the items in `folder`, which exists; `report` is told the name of each finished file.
-/// Files are replaced. Throws Failure, also when `stop` was requested.
-void make_paper(const std::vector<PaperItem>& items, const std::string& folder,
+/// Throws Failure, also when `stop` was requested.
+void make_paper(const std::vector<PaperItem>& items, const std::string& folder, Existing existing,
                 const std::stop_token& stop, const std::function<void(const std::string&)>& report);
 
 }  // namespace carom

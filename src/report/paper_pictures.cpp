@@ -29,7 +29,8 @@ PaperRun run_paper_scene(const std::string& name, const std::stop_token& stop) {
     return run;
 }
 
-void film_motion(const PaperRun& run, const std::string& path, const std::stop_token& stop) {
+void film_motion(const PaperRun& run, const std::string& path, Existing existing,
+                 const std::stop_token& stop) {
     const Film& film = run.scene.film;
     FilmOptions options;
     options.width_px = film.width_px;
@@ -37,6 +38,7 @@ void film_motion(const PaperRun& run, const std::string& path, const std::stop_t
     options.fps_numerator = film.fps.numerator;
     options.fps_denominator = film.fps.denominator;
     options.title = run.scene.title;
+    options.existing = existing;
     const auto sink = make_threaded_sink(make_film_writer(path, options), 1);
     Painter painter(run.scene, run.motion, {film.width_px, film.height_px});
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "media/output_file.h"
 #include "motion/motion.h"
 #include "scene/scene.h"
 
@@ -20,7 +21,8 @@ PaperRun run_paper_scene(const std::string& name, const std::stop_token& stop);
 
 /// Films the whole motion to `path`. Throws Failure(kRun) once `stop` is requested; what was filmed
 /// until then stays as a partial film.
-void film_motion(const PaperRun& run, const std::string& path, const std::stop_token& stop);
+void film_motion(const PaperRun& run, const std::string& path, Existing existing,
+                 const std::stop_token& stop);
 
 /// Figure 8 as under a stroboscope: the fall, every tenth of a second, beside the ruler.
 Image figure8_picture(const PaperRun& run);

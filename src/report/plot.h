@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "media/output_file.h"
+
 namespace carom {
 
 /// Texts of a plot are plain UTF-8, but for x_{A} and m^{2}, which lower and raise.
@@ -90,7 +92,8 @@ std::string gnuplot_script(const Plot& plot, PlotFormat format, const std::strin
 /// Throws Failure(kRun) where gnuplot is missing (with the package to install) or fails (with its
 /// text) or `stop` was requested, Failure(kInput) for another extension, Failure(kOutput) where the
 /// file cannot be written.
-void write_plot(const Plot& plot, const std::string& path, const std::stop_token& stop = {});
+void write_plot(const Plot& plot, const std::string& path, Existing existing = Existing::kReplace,
+                const std::stop_token& stop = {});
 
 /// Throws Failure(kRun) unless gnuplot can be started: ask before the work.
 void require_gnuplot(const std::stop_token& stop = {});

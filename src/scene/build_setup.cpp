@@ -6,6 +6,7 @@
 
 #include "scene/build.h"
 #include "scene/film_clock.h"
+#include "scene/frame_rate.h"
 #include "scene/scalar.h"
 
 namespace carom {
@@ -51,23 +52,6 @@ void build_simulation(Build& build) {
     simulation.solver = fields.word("solver") == "quick" ? Solver::kQuick : Solver::kWorld;
     simulation.iterations = fields.integer("iterations");
     warn_of_unread_keys(build, fields);
-}
-
-/// The fraction with the smallest denominator that is `value` to 12 digits, by continued fractions:
-/// 23.976 is 2997/125. Frame times are computed from it, so that they do not drift.
-FrameRate frame_rate(double value) {
-    constexpr double kSameValue = 1e-12;  // relative; finer than anyone writes a frame rate
-    constexpr double kLargest = 1e9;      // fits an int
-    double h0 = 0, h1 = 1, k0 = 1, k1 = 0, rest = value;
-    for (int i = 0; i < 40; ++i) {
-        const double whole = std::floor(rest);
-        const double h2 = whole * h1 + h0, k2 = whole * k1 + k0;
-        if (h2 > kLargest || k2 > kLargest) break;
-        h0 = h1, h1 = h2, k0 = k1, k1 = k2;
-        if (std::abs(h1 / k1 - value) <= kSameValue * value || rest == whole) break;
-        rest = 1 / (rest - whole);
-    }
-    return {static_cast<int>(h1), static_cast<int>(k1)};
 }
 
 FrameRate read_frame_rate(const Fields& fields) {

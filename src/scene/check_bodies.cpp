@@ -47,13 +47,16 @@ void report_surface(Build& build, const SurfaceOverlap& overlap) {
     const std::string& ball_name = build.scene.balls[ball].name;
     const std::string& surface_name =
         build.scene.surfaces[static_cast<std::size_t>(overlap.surface)].name;
-    const std::string message =
+    // Whoever puts a ball's centre inside of a body most likely means a container.
+    const bool inside = overlap.behind_by == 0 && overlap.depth > build.scene.balls[ball].radius;
+    std::string message =
         overlap.behind_by > 0
             ? fmt::format(
                   "the ball '{}' is behind the plane '{}': its centre is {} on the far side",
                   ball_name, surface_name, depth_text(overlap.behind_by))
             : fmt::format("the ball '{}' and the surface '{}' overlap by {} at the start",
                           ball_name, surface_name, depth_text(overlap.depth));
+    if (inside) message += "; surfaces are solid: for a container make a room of planes";
     build.report.error(*build.ball_origins[ball].node, message);
 }
 

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "scene/odd_blank.h"
 #include "scene/scalar.h"
 #include "scene/source_text.h"
 
@@ -225,7 +226,14 @@ std::optional<Node> parse_document(std::string_view text, const std::string& fil
     } catch (const Stop& stop) {
         return fail(stop.mark, stop.message);
     } catch (const YAML::Exception& error) {
-        return fail(builder.at(error.mark), syntax_message(error.msg, builder.open_mark()));
+        const SourceMark mark = builder.at(error.mark);
+        // yaml-cpp finds such a mistake behind its place, and speaks of what it led to.
+        if (const auto blank = odd_blank_before(source->text(), mark.line))
+            return fail(
+                {blank->line, blank->column},
+                fmt::format("not valid YAML: {} stands here; write {}", blank->name,
+                            blank->name == "a tab" ? "spaces to indent a line" : "a plain space"));
+        return fail(mark, syntax_message(error.msg, builder.open_mark()));
     }
     std::optional<Node> root = builder.take_root();
     if (!root || root->kind == Node::Kind::kNull) return fail({1, 1}, "the document is empty");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/catalogue.h"
+#include "scene/key_places.h"
 #include "scene/scalar.h"
 
 namespace carom {
@@ -104,7 +105,7 @@ Node* Setter::key_of(const Place& place, const Step& step) {
     const KeySpec* spec = step.is_index() ? nullptr : table_.find(*place.section, step.name);
     if (spec == nullptr)
         return fail(fmt::format("unknown key {}{}", quoted_excerpt(step.text()),
-                                suggestion(step.name, table_.key_names(*place.section))));
+                                key_suggestion(table_, *place.section, step.name)));
     Node* node = place.node->find(step.name);
     return node != nullptr ? node : &add(*place.node, step.name);
 }

@@ -15,6 +15,7 @@
 #include "core/failure.h"
 #include "scene/build.h"
 #include "scene/document.h"
+#include "scene/odd_blank.h"
 #include "scene/overrides.h"
 #include "scene/validate.h"
 
@@ -50,6 +51,24 @@ void build_scene(Build& build) {
     warn_of_half_friction(build);
 }
 
+/// A key or a number with a no-break space in it looks right on the screen.
+void point_out_odd_blanks(std::string_view text, const std::string& file, Diagnostics& all) {
+    Diagnostics result;
+    int looked_at = 0;
+    constexpr int kMostLooks = 100;  // each goes through the text
+    for (Diagnostic d : all.items()) {
+        const bool here = d.severity == Severity::kError && d.file == file && d.mark.line > 0 &&
+                          d.message.find("not valid YAML") == std::string::npos;
+        if (here && ++looked_at <= kMostLooks)
+            if (const auto blank = odd_blank_in_line(text, d.mark.line);
+                blank && blank->name != "a tab")
+                d.message += fmt::format("; there is {} in column {}: write a plain space",
+                                         blank->name, blank->column);
+        result.add(std::move(d));
+    }
+    all = std::move(result);
+}
+
 }  // namespace
 
 const std::vector<Node>& Build::entries(std::string_view key) const {
@@ -80,6 +99,7 @@ SceneResult read_scene(std::string_view text, const std::string& file,
         if (!report.diagnostics().has_errors()) result.scene = std::move(scene);
     }
     result.diagnostics = std::move(report.diagnostics());
+    if (result.diagnostics.has_errors()) point_out_odd_blanks(text, file, result.diagnostics);
     result.diagnostics.sort();
     return result;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/readable.h"
 #include "scene/document.h"
 
 namespace carom {
@@ -11,23 +12,6 @@ namespace carom {
 namespace {
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
-/// Length of the well-formed UTF-8 sequence at `i`, or 0 (The Unicode Standard, table 3-7).
-std::size_t utf8_length(std::string_view s, std::size_t i) {
-    const auto lead = static_cast<unsigned char>(s[i]);
-    if (lead < 0x80) return 1;
-    std::size_t length = 0;
-    if (lead >= 0xC2 && lead <= 0xDF) length = 2;
-    if (lead >= 0xE0 && lead <= 0xEF) length = 3;
-    if (lead >= 0xF0 && lead <= 0xF4) length = 4;
-    if (length == 0 || i + length > s.size()) return 0;
-    for (std::size_t k = 1; k < length; ++k)
-        if (!is_continuation(s[i + k])) return 0;
-    const auto second = static_cast<unsigned char>(s[i + 1]);
-    const bool wrong = (lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-                       (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F);
-    return wrong ? 0 : length;
-}
 
 /// Control characters that YAML does not allow in a document (YAML 1.2.2, production c-printable).
 bool is_forbidden(char c) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "scene/key_places.h"
 #include "scene/scalar.h"
 
 namespace carom {
@@ -253,7 +254,7 @@ bool Validator::section(Node& map, Section section) {
             if (child.key.find(':') != std::string::npos)
                 message += "; a space must follow the ':'";
             else
-                message += suggestion(child.key, table_.key_names(section));
+                message += key_suggestion(table_, section, child.key);
             report_.error_at_key(child, std::move(message));
             map.valid = child.valid = false;
         } else {

@@ -9,6 +9,7 @@
 #include "sim/effects.h"
 #include "sim/exact_run.h"
 #include "sim/island_step.h"
+#include "sim/kept_limit.h"
 #include "sim/peaks.h"
 #include "sim/seams.h"
 
@@ -128,6 +129,9 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         const std::int64_t slow = report_.steps + report_.integrated + (step ? events : 0);
         if (slow == looked && events % kEventsPerLook != 0) continue;
         looked = slow;
+        require_room(
+            motion_.events.size() + static_cast<std::size_t>(report_.impacts + report_.integrated),
+            next.time, end_);
         if (stop.stop_requested())
             throw Failure(FailureKind::kRun,
                           fmt::format("interrupted at {} s of motion", next.time));

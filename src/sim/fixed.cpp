@@ -4,16 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/failure.h"
 #include "sim/contact_finder.h"
 #include "sim/contact_solver.h"
 #include "sim/effects.h"
 #include "sim/event_log.h"
+#include "sim/kept_limit.h"
 #include "sim/ode_messages.h"
 #include "sim/ode_world.h"
 #include "sim/peaks.h"
 #include "sim/recorder.h"
+#include "sim/tunnelling.h"
 #include "sim/unrest.h"
 
 namespace carom {
@@ -68,12 +71,18 @@ class FixedRun {
     void step();
     double time() const { return static_cast<double>(steps_) * scene_.simulation.step; }
     bool all_at_rest() const { return log_.all_at_rest(); }
+    /// An impact gives an event and a piece.
+    void require_room(double end) const {
+        carom::require_room(2 * static_cast<std::size_t>(log_.impacts()), time(), end);
+    }
     SimulationResult finish(double duration);
 
   private:
     void solve();
     void read_state();
     void record();
+    void watch_for_tunnelling();
+    Effect tunnelling() const;
     [[noreturn]] void fail(const std::string& text) const;
 
     const Scene& scene_;
@@ -83,6 +92,14 @@ class FixedRun {
     EventLog log_;
     std::vector<Recorder> recorders_;
     std::int64_t steps_ = 0;
+
+    /// The first time that a ball went farther in a step than its radius.
+    struct TooFar {
+        double time;
+        std::size_t ball;
+        double way;  ///< m
+    };
+    std::optional<TooFar> too_far_;
 
     // The balls before and after the step, and what touched.
     std::vector<Vec3> position_before_, position_;
@@ -127,6 +144,7 @@ void FixedRun::step() {
     solver_.finish(contacts_, after_);
     log_.add_step(time(), contacts_, after_);
     record();
+    if (!too_far_) watch_for_tunnelling();
     ++steps_;
 }
 
@@ -153,6 +171,27 @@ void FixedRun::read_state() {
                       fmt::format("the state of ball '{}' is not finite after the step at t = {} s",
                                   scene_.balls[b].name, time()));
     }
+}
+
+void FixedRun::watch_for_tunnelling() {
+    for (std::size_t b = 0; b < position_.size(); ++b) {
+        const double way = after_[b].linear.norm() * scene_.simulation.step;
+        if (way <= scene_.balls[b].radius) continue;
+        too_far_ = TooFar{time(), b, way};
+        return;
+    }
+}
+
+Effect FixedRun::tunnelling() const {
+    if (!too_far_) return {false, "no ball went farther in a step than its radius"};
+    const Ball& ball = scene_.balls[too_far_->ball];
+    return {
+        true,
+        fmt::format("at {:.6g} s the ball '{}' goes {:.3g} m in one step, more than its radius of "
+                    "{:.3g} m: it may pass through others unnoticed; lower simulation.step below "
+                    "{:.2g} s, or take the method exact",
+                    too_far_->time, ball.name, too_far_->way, ball.radius,
+                    scene_.simulation.step * ball.radius / too_far_->way)};
 }
 
 void FixedRun::record() {
@@ -194,6 +233,7 @@ SimulationResult FixedRun::finish(double duration) {
     result.report.steps = steps_;
     result.report.impacts = log_.impacts();
     result.report.effects = effects_of(scene_, pairs_);
+    result.report.effects[kTunnelling] = tunnelling();
     return result;
 }
 
@@ -229,6 +269,7 @@ SimulationResult simulate_fixed(const Scene& scene, const std::stop_token& stop,
             if (stop.stop_requested())
                 throw Failure(FailureKind::kRun,
                               fmt::format("interrupted at t = {} s of the simulation", run.time()));
+            run.require_room(limit);
             if (progress) progress(run.time());
         }
         run.step();

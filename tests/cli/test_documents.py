@@ -23,7 +23,7 @@ class Documents(ProgramTest):
         self.assert_exit(0, run("compare", SOURCE / "docs" / "figure9.png", drawn))
 
     def test_every_command_is_described(self):
-        commands = re.findall(r"^  (\w+) +\S", run("--help").stdout.split("Subcommands:")[1], re.M)
+        commands = re.findall(r"^  (\w+) +\S", run("--help").stdout.split("Commands:")[1], re.M)
         self.assertGreaterEqual(len(commands), 8)
         text = (SOURCE / "docs" / "commands.md").read_text()
         for command in commands:

@@ -17,7 +17,7 @@ TEST(SequencePath, PutsTheNumberIn) {
     EXPECT_EQ(sequence_path("f%03d.png", 1234567), "f1234567.png");
     EXPECT_EQ(sequence_path("100%%_%02d.png", 7), "100%_07.png");
     EXPECT_EQ(sequence_path("{0}_%d.png", 7), "{0}_7.png");
-    EXPECT_EQ(sequence_path("%012d", 7'000'000'000), "007000000000");
+    EXPECT_EQ(sequence_path("%012d.png", 7'000'000'000), "007000000000.png");
 }
 
 TEST(SequencePath, NamesFramesInAFolder) {

@@ -29,7 +29,7 @@ TEST(Malice, BrokenYaml) {
            "t.yaml:2:19: error: not valid YAML: illegal flow end");
     expect("carom: 1\ntitle: \"abc\n", "t.yaml:3:1: error: not valid YAML:");
     expect("carom: 1\ntitle: 'abc", "t.yaml:2:12: error: not valid YAML:");
-    expect("carom: 1\n\tfilm: 1\n", "t.yaml:2:1: error: not valid YAML: illegal tab");
+    expect("carom: 1\n\tfilm: 1\n", "t.yaml:2:1: error: not valid YAML: a tab stands");
     expect("carom: 1\ntitle: a: b\n", "t.yaml:2:9: error: not valid YAML: illegal map value");
     expect("carom: 1\ntitle: @b\n", "t.yaml:2:8: error: not valid YAML: unknown token");
     expect("carom: 1\n---\ncarom: 1\n", "t.yaml:2:1: error: a second document begins here");
