@@ -1,13 +1,11 @@
 #include "sim/curved_motion.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <boost/numeric/odeint/util/odeint_error.hpp>
 #include <cmath>
+#include <optional>
 
-#include "core/failure.h"
 #include "sim/curve_fit.h"
 #include "sim/curved_crossing.h"
 
@@ -103,6 +101,24 @@ double longest_piece(const Course& course, const CurvedForces& f) {
     return slowing > 0 ? std::min(h, kSlipPart * slip / slowing) : h;
 }
 
+/// A slip that friction ends within this time [s] may end at once: gravity does no more than 1e-8
+/// m/s meanwhile. Under large friction a slip that turns is stiff towards its end.
+constexpr double kSudden = 1e-9;
+
+/// The state after the impulse of friction that ends the slip: it changes the slip s by 1 + 1/k
+/// times what it gives to the velocity. None where that takes longer.
+std::optional<CurvedState> sudden_grip(const Course& course, const CurvedForces& f) {
+    const CurvedContact& c = course.contact();
+    const double k = c.inertia_factor;
+    if (course.mode() != CurvedMode::kSliding || !(f.push > 0)) return std::nullopt;
+    if (f.slip.norm() > kSudden * c.friction * f.push * (1 + 1 / k)) return std::nullopt;
+    const Vec3 change = -f.slip / (1 + 1 / k);
+    CurvedState state = course.start();
+    state.v += change;
+    state.w -= f.normal.cross(change) / (k * c.radius);
+    return state;
+}
+
 /// The largest duration not above h that leads from `now` to a double.
 double to_a_double(double now, double h) {
     const double seconds = (now + h) - now;
@@ -132,7 +148,6 @@ CurvedPiece next_piece(const CurvedContact& contact, CurvedMode mode, const Curv
     }
     const double longest = longest_piece(course, forces);
     double h = to_a_double(now, std::min(longest, guess > 0 ? guess : 0.25 * longest));
-    std::string trouble = "the error stays too large";
     for (int tries = 0; tries < kMostTries && h > 0; ++tries) {
         Fit fitted;
         try {
@@ -157,14 +172,18 @@ CurvedPiece next_piece(const CurvedContact& contact, CurvedMode mode, const Curv
                 return result;
             }
             h *= std::clamp(0.9 * std::pow(fitted.error, -1.0 / 9), 0.2, 0.9);
-        } catch (const odeint::odeint_error& e) {
-            trouble = e.what();
+        } catch (const odeint::odeint_error&) {
             h *= 0.25;
         }
         h = to_a_double(now, h);
     }
-    throw Failure(FailureKind::kRun,
-                  fmt::format("a curved contact cannot be integrated at {} s: {}", now, trouble));
+    if (const auto gripped = sudden_grip(course, forces)) {
+        result.end = CurvedEnd::kSlipEnds;
+        result.end_state = *gripped;
+    } else {
+        result.end = CurvedEnd::kGivenUp;
+    }
+    return result;
 }
 
 }  // namespace carom

@@ -14,7 +14,8 @@ enum class CurvedEnd {
     kFeature,    ///< another feature of the surface is met
     kSlipEnds,   ///< no slip is left
     kSlipGrows,  ///< an incipient slip now has its own direction
-    kGripEnds    ///< friction cannot hold the rolling any more
+    kGripEnds,   ///< friction cannot hold the rolling any more
+    kGivenUp     ///< the integrator makes no progress from here
 };
 
 struct CurvedPiece {
@@ -41,8 +42,9 @@ CurvedState integrate(const CurvedContact& contact, CurvedMode mode, const Curve
 /// The next piece of a motion that is at `state` at `now` [s]. `guess` [s] is the next_seconds of
 /// the piece before, 0 at the beginning of a phase. The piece ends at a time that is a double, so
 /// that no rounding of times adds up. `settled`: something ended at once again and again; go on
-/// until it is past.
-/// Throws Failure(kRun) when the integrator makes no progress.
+/// until it is past. Where the integrator makes no progress the piece has no length: a slip that
+/// would be over within a nanosecond then ends at once, without a change of the momentum that
+/// friction cannot change; anything else is kGivenUp.
 CurvedPiece next_piece(const CurvedContact& contact, CurvedMode mode, const CurvedState& state,
                        double now, double guess, bool settled);
 

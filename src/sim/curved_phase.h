@@ -16,6 +16,9 @@ struct CurvedPhase {
     // How often something has ended at once at one instant [s].
     double last_begin = -std::numeric_limits<double>::infinity();
     int at_once = 0;
+    /// s: it was given up on (CurvedEnd::kGivenUp), and is stepped until then, ...
+    double stepped_until = -std::numeric_limits<double>::infinity();
+    double stepped_seconds = 0;  ///< ... for so long; twice as long each time
 };
 
 }  // namespace carom

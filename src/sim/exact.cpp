@@ -170,6 +170,12 @@ SimulationResult ExactRun::finish() {
                                        "of ODE",
                                        report_.integrated, report_.steps)}
             : Effect{false, "no two lasting contacts of a ball at the same time"};
+    report_.effects["last_resort"] =
+        report_.given_up > 0
+            ? Effect{true, fmt::format("{} times a contact that could not be integrated was "
+                                       "stepped by ODE for a while",
+                                       report_.given_up)}
+            : Effect{false, "no contact was given up on"};
     return {std::move(motion_), std::move(report_)};
 }
 

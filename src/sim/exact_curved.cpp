@@ -17,6 +17,13 @@ constexpr double kBalanced = 1e-14;
 /// When so many phases have ended at once at an instant, the next one has to go on.
 constexpr int kMostAtOnce = 4;
 
+/// When so many have, it is given up on.
+constexpr int kMostInVain = 40;
+
+/// A contact that is given up on is stepped for so long at first [s]: far longer than a stiff end
+/// of a slip takes.
+constexpr double kFirstStepped = 1e-3;
+
 EventKind kind_of(CurvedMode mode) {
     return mode == CurvedMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
 }
@@ -136,9 +143,12 @@ void ExactRun::advance(int ball, double now) {
     phase.next_seconds = piece.next_seconds;
     ExactBall& b = world_.ball(ball);
     if (!(piece.seconds > 0)) {
-        ++phase.at_once;
+        phase.state = piece.end_state;
         b.phase_end = now;
-        end_curved(ball, now);
+        if (piece.end == CurvedEnd::kGivenUp || ++phase.at_once > kMostInVain)
+            step_instead(ball, now);
+        else
+            end_curved(ball, now);
         return;
     }
     BallState at = world_.state(ball, now);
@@ -151,6 +161,17 @@ void ExactRun::advance(int ball, double now) {
     begin_piece(ball, now, at, piece.acceleration, piece.spin_rate, OptionalCurve(piece.curve));
 }
 
+/// The last resort where a contact cannot be integrated: ODE steps it for a while.
+void ExactRun::step_instead(int ball, double now) {
+    CurvedPhase& phase = curved_[ball];
+    phase.stepped_seconds = std::max(2 * phase.stepped_seconds, kFirstStepped);
+    phase.stepped_until = now + phase.stepped_seconds;
+    phase.at_once = 0;
+    ++report_.given_up;
+    put_at(ball, now, phase.state.x);
+    join(ball, now, {phase.state.v, phase.state.w});
+}
+
 /// A piece, or the whole phase, ends.
 void ExactRun::end_curved(int ball, double now) {
     CurvedPhase& phase = curved_[ball];
@@ -160,6 +181,7 @@ void ExactRun::end_curved(int ball, double now) {
     const Partner surface{true, b.surface};
     switch (phase.end) {
         case CurvedEnd::kNone:
+        case CurvedEnd::kGivenUp:  // advance() has seen to that
             break;
         case CurvedEnd::kLiftOff:
             lift_off(ball, now, surface, b.normal);

@@ -195,6 +195,8 @@ bool ExactRun::leave_island(int ball, double now) {
         return true;
     }
     if (links.size() > 1 || !links.front().partner.is_surface) return false;
+    const auto phase = curved_.find(ball);
+    if (phase != curved_.end() && now < phase->second.stepped_until) return false;
     const Link link = links.front();
     const Contact contact = world_.contact_at(ball, link.partner, now);
     // It joined because it met something: where nothing else tells whether the contact presses, a
