@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/feature_side.h"
+
 namespace carom {
 
 namespace {
@@ -154,6 +156,7 @@ bool keeps_out(const ExactWorld& world, int ball, int surface, double from, doub
 
 void add_borders_of_others(const ExactWorld& world, const Contact& held, const CurvedState& at,
                            CurvedContact& feature) {
+    const double border = kBorder * (at.x.cwiseAbs().maxCoeff() + world.ball(held.ball).radius);
     const auto look = [&](int s) {
         if (s == held.other.index) return;
         const Contact c = world.surface_contact(held.ball, s, at.x);
@@ -161,10 +164,16 @@ void add_borders_of_others(const ExactWorld& world, const Contact& held, const C
         const CurvedContact other = feature_at(world, c, at.x, at.v);
         for (int i = 0; i < other.gate_count && feature.gate_count < kMostGates; ++i) {
             const FeatureGate& gate = other.gates[static_cast<std::size_t>(i)];
-            feature.add_gate(gate.direction, gate.offset);
+            // Where the ball is on that border already, it is a seam between the two.
+            if (gate.room(at.x) > border) feature.add_gate(gate.direction, gate.offset);
         }
     };
     world.for_each_surface_near(held.ball, at.x, world.reach(held.ball), look);
+    // A ball that goes along a border is not beyond it by what rounding makes of its place.
+    for (int i = 0; i < feature.gate_count; ++i) {
+        FeatureGate& gate = feature.gates[static_cast<std::size_t>(i)];
+        if (gate.room(at.x) <= border) gate.offset -= 2 * border;
+    }
 }
 
 }  // namespace carom

@@ -44,7 +44,8 @@ void merge_places(const ExactWorld& world, const Vec3& x, const Velocities& velo
                   std::vector<Contact>& contacts, std::size_t first, Dropped&& dropped);
 
 /// Adds the borders of the features of other surfaces that meet the ball in the same place: where
-/// one of them ends, who holds the ball has to be decided anew.
+/// one of them ends, who holds the ball has to be decided anew. The borders that the ball is on are
+/// moved out by their width.
 void add_borders_of_others(const ExactWorld& world, const Contact& held, const CurvedState& at,
                            CurvedContact& feature);
 

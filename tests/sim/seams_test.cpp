@@ -141,6 +141,31 @@ TEST(Seams, ABounceOnASeamIsABounce) {
         }
 }
 
+/// Along the seam of two boxes and over the edge that both end in: as off one box.
+TEST(Seams, ABallRollsOffTheEndOfASeam) {
+    for (int turn = 0; turn < 12; ++turn) {
+        const Quat turned = Quat(Eigen::AngleAxisd(0.5 * turn, Vec3::UnitZ())) *
+                            Quat(Eigen::AngleAxisd(0.12 + 0.02 * turn, Vec3::UnitY()));
+        const Vec3 down = turned * Vec3::UnitX(), side = turned * Vec3::UnitY(),
+                   up = turned * Vec3::UnitZ();
+        const auto run = [&](bool two) {
+            Scene scene = exact_scene(0.4, 0.3, kG);
+            scene.simulation.duration = 1.2;
+            if (two)
+                for (const double at : {-0.2, 0.2})
+                    add_box(scene, at * side - 0.25 * up, {1, 0.4, 0.5}, turned);
+            else
+                add_box(scene, -0.25 * up, {1, 0.8, 0.5}, turned);
+            add_ball(scene, 0.3 * down + kR * up, Vec3::Zero(), kR);
+            return simulate(scene).motion;
+        };
+        const Motion one = run(false), two = run(true);
+        EXPECT_EQ(events_of(two, EventKind::kLeave).size(), 1u) << turn;
+        EXPECT_LE((one.balls[0].at(1.2).position - two.balls[0].at(1.2).position).norm(), 1e-9)
+            << turn;
+    }
+}
+
 TEST(Seams, ABallRestsOverASeam) {
     for (const double beside : {0.0, 1e-12, 1e-9, -1e-3}) {
         Scene scene = exact_scene(0.3, 0.5, kG);
