@@ -85,7 +85,7 @@ std::string renderer() {
     try {
         return Painter(scene, motion, {16, 16}).renderer();
     } catch (const Failure& failure) {
-        return fmt::format("none: {}", failure.what());
+        return fmt::format("none: {}", readable_message(failure.what()));
     }
 }
 

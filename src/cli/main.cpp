@@ -60,7 +60,7 @@ int print(const std::string& text) {
     } catch (const ReaderGone&) {
         return kExitDone;
     } catch (const Failure& failure) {
-        fmt::print(stderr, "carom: {}\n", failure.what());
+        say("carom: {}\n", readable_message(failure.what()));
         return exit_code_of(failure);
     }
     return kExitDone;
@@ -71,14 +71,14 @@ int exit_code_of_exception() {
     try {
         throw;
     } catch (const Failure& failure) {
-        say("carom: {}\n", failure.what());
+        say("carom: {}\n", readable_message(failure.what()));
         return exit_code_of(failure);
     } catch (const Bug& bug) {
-        say("carom: {}\nThis is a bug in carom.\n", bug.what());
+        say("carom: {}\nThis is a bug in carom.\n", readable_message(bug.what()));
     } catch (const std::bad_alloc&) {
         write_standard_error("carom: out of memory\n");
     } catch (const std::exception& error) {
-        say("carom: {}\n", error.what());
+        say("carom: {}\n", readable_message(error.what()));
     }
     return kExitFailed;
 }

@@ -68,28 +68,23 @@ void build_pair(Build& build, const Node& node, std::set<std::array<int, 2>>& se
     build.scene.pairs.push_back(rule);
 }
 
-bool pair_names_friction(const Scene& scene, int a, int b) {
+/// Rules that name friction, each with the smaller index first.
+std::set<std::array<int, 2>> friction_rules(const Scene& scene) {
+    std::set<std::array<int, 2>> rules;
     for (const PairRule& rule : scene.pairs) {
-        const bool same = rule.between == std::array{a, b} || rule.between == std::array{b, a};
-        if (same && rule.friction) return true;
+        const auto [a, b] = std::minmax(rule.between[0], rule.between[1]);
+        if (rule.friction) rules.insert({a, b});
     }
-    return false;
+    return rules;
 }
 
-/// Materials that something may meet in contact: per material of a ball, all that are not its own
-/// alone. Surfaces never meet each other.
-std::set<std::pair<int, int>> pairs_that_may_meet(const Scene& scene) {
-    std::map<int, int> balls;  // material -> number of balls
-    std::set<int> surfaces;
-    for (const Ball& ball : scene.balls) ++balls[ball.material];
-    for (const Surface& surface : scene.surfaces) surfaces.insert(surface.material);
-    std::set<std::pair<int, int>> pairs;
-    for (const auto& [material, count] : balls) {
-        for (const int surface : surfaces) pairs.insert(std::minmax(material, surface));
-        for (const auto& [other, other_count] : balls)
-            if (other != material || count > 1) pairs.insert(std::minmax(material, other));
-    }
-    return pairs;
+/// The materials that bodies have, in order, and whether a ball has them: surfaces never meet each
+/// other.
+std::map<int, bool> materials_in_use(const Scene& scene) {
+    std::map<int, bool> on_ball;
+    for (const Surface& surface : scene.surfaces) on_ball[surface.material];
+    for (const Ball& ball : scene.balls) on_ball[ball.material] = true;
+    return on_ball;
 }
 
 }  // namespace
@@ -122,20 +117,31 @@ void build_materials(Build& build) {
 
 void warn_of_half_friction(Build& build) {
     const Scene& scene = build.scene;
+    constexpr std::size_t kMostNamed = 20;  // bounds the work too, where materials are thousands
+    const std::map<int, bool> in_use = materials_in_use(scene);
+    const std::set<std::array<int, 2>> rules = friction_rules(scene);
+    const auto friction_of = [&](int material) {
+        return scene.materials[static_cast<std::size_t>(material)].friction;
+    };
+    std::vector<std::pair<int, bool>> without;
+    for (const auto& [material, on_ball] : in_use)
+        if (!friction_of(material)) without.emplace_back(material, on_ball);
+
     std::map<int, std::vector<std::string>> partners;  // material with friction -> those without
-    for (const auto& [a, b] : pairs_that_may_meet(scene)) {
-        const auto has_friction = [&](int material) {
-            return scene.materials[static_cast<std::size_t>(material)].friction.value_or(0) > 0;
-        };
-        const auto names_friction = [&](int material) {
-            return scene.materials[static_cast<std::size_t>(material)].friction.has_value();
-        };
-        if (pair_names_friction(scene, a, b)) continue;
-        for (const auto& [with, without] : {std::pair{a, b}, std::pair{b, a}}) {
-            if (!has_friction(with) || names_friction(without)) continue;
-            const std::string& name = scene.materials[static_cast<std::size_t>(without)].name;
-            partners[with].push_back(name.empty() ? "the default material" : "'" + name + "'");
+    for (const auto& [with, on_ball] : in_use) {
+        if (!(friction_of(with).value_or(0) > 0)) continue;
+        std::vector<std::string> names;
+        for (const auto& [other, other_on_ball] : without) {
+            const auto [a, b] = std::minmax(with, other);
+            if ((!on_ball && !other_on_ball) || rules.contains({a, b})) continue;
+            if (names.size() == kMostNamed) {
+                names.emplace_back("and more");
+                break;
+            }
+            const std::string& name = scene.materials[static_cast<std::size_t>(other)].name;
+            names.push_back(name.empty() ? "the default material" : "'" + name + "'");
         }
+        if (!names.empty()) partners[with] = std::move(names);
     }
     for (const auto& [material, names] : partners) {
         const auto index = static_cast<std::size_t>(material);

@@ -24,14 +24,16 @@ std::string set_path(std::string_view section, std::string_view key) {
 
 std::string place_suggestion(const KeyTable& table, std::string_view key) {
     constexpr std::size_t kMostPlaces = 3;
-    std::vector<std::string> places;
+    std::vector<std::string> places, in_lists;
     for (const SectionDoc& section : table.sections()) {
         // What stands in `defaults` stands first of all where it is filled in.
         const bool repeats = section.section == Section::kBallDefaults;
         if (repeats || table.find(section.section, key) == nullptr) continue;
-        places.push_back(fmt::format("'{}'", set_path(section.path, key)));
-        if (places.size() == kMostPlaces) break;
+        const std::string path = set_path(section.path, key);
+        (path.find("NAME") == std::string::npos ? places : in_lists).push_back("'" + path + "'");
     }
+    if (places.empty()) places = std::move(in_lists);
+    if (places.size() > kMostPlaces) places.resize(kMostPlaces);
     if (places.empty()) return "";
     return fmt::format("; did you mean {}?", fmt::join(places, " or "));
 }

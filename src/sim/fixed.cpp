@@ -189,7 +189,7 @@ Effect FixedRun::tunnelling() const {
         true,
         fmt::format("at {:.6g} s the ball '{}' goes {:.3g} m in one step, more than its radius of "
                     "{:.3g} m: it may pass through others unnoticed; lower simulation.step below "
-                    "{:.2g} s, or take the method exact",
+                    "{:.3g} s, or take the method exact",
                     too_far_->time, ball.name, too_far_->way, ball.radius,
                     scene_.simulation.step * ball.radius / too_far_->way)};
 }

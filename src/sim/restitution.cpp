@@ -72,12 +72,24 @@ bool PairTable::scene_has_friction(const Scene& scene) const {
     for (const Ball& ball : scene.balls)
         if (!of_balls.insert(ball.material).second) seen_twice.insert(ball.material);
     for (const Surface& surface : scene.surfaces) of_surfaces.insert(surface.material);
-    for (int a : of_balls) {
-        for (int b : of_surfaces)
-            if (at(a, b).friction > 0) return true;
-        for (int b : of_balls)
-            if ((a != b || seen_twice.count(a) > 0) && at(a, b).friction > 0) return true;
-    }
+    const auto may_meet = [&](int a, int b) {
+        if (a == b)
+            return seen_twice.count(a) > 0 || (of_balls.count(a) > 0 && of_surfaces.count(a) > 0);
+        const bool first = of_balls.count(a) > 0, second = of_balls.count(b) > 0;
+        return (first && (second || of_surfaces.count(b) > 0)) ||
+               (second && of_surfaces.count(a) > 0);
+    };
+    for (const auto& [pair, rule] : overrides_)
+        if (rule.friction.value_or(0) > 0 && may_meet(pair[0], pair[1])) return true;
+    // Without a rule both must have it. Each pair that fails has a rule: that bounds the work.
+    std::vector<int> rough;
+    for (int material = 0; material < static_cast<int>(friction_.size()); ++material)
+        if (friction_[static_cast<std::size_t>(material)] > 0 &&
+            (of_balls.count(material) > 0 || of_surfaces.count(material) > 0))
+            rough.push_back(material);
+    for (int a : rough)
+        for (int b : rough)
+            if (of_balls.count(a) > 0 && may_meet(a, b) && at(a, b).friction > 0) return true;
     return false;
 }
 
