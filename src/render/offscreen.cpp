@@ -11,6 +11,13 @@
 #include "render/driver_environment.h"
 #include "render/osmesa_table.h"
 
+#ifdef __SANITIZE_ADDRESS__
+// OSMesa (22.3) keeps what describes the contexts' buffers when it destroys the contexts. There is
+// one such hook per program.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+#endif
+
 namespace carom {
 
 namespace {
