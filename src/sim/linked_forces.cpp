@@ -1,6 +1,7 @@
 #include "sim/linked_forces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "sim/linked_equations.h"
@@ -16,6 +17,10 @@ using Sliding = ForceEquations::Sliding;
 
 /// As least_push() of one ball; a system of equations leaves more rounding.
 constexpr double kLeastPush = 1e-13;
+
+/// Over so much of the time that gravity takes over a radius, both ways, the turning of a direction
+/// is found: to 1e-9 of it by curvature, and to 1e-8 by rounding.
+constexpr double kTurningTime = 1e-5;
 
 /// Rounds of putting places right; each squares what is left.
 constexpr int kPlaceRounds = 3;
@@ -83,18 +88,56 @@ LinkedForces forces_with(const LinkedBalls& system, const ContactMotions& at,
     return r;
 }
 
+using Turning = std::array<Vec3, kMostLinkedContacts>;
+
+/// The forces where slips begin, whose directions turn as `turning` says [1/s].
+LinkedForces forces_of_starts(const LinkedBalls& system, const ContactMotions& at,
+                              SlipStarts starts, const Turning& turning) {
+    // What happens at the slips that begin is linear in the forces that hold them back.
+    for (std::size_t i = 0; i <= 2 * starts.count(); ++i)
+        starts.take(i, forces_with(system, at, starts.probe(i)));
+    starts.set_turning(at, turning);
+    LinkedForces r = forces_with(system, at, starts.friction());
+    starts.fill_directions(r);
+    return r;
+}
+
+/// The directions of slips that begin, `seconds` away, if these do not turn.
+Turning directions_at(const LinkedBalls& system, const LinkedState& state, const LinkedForces& f,
+                      double seconds) {
+    LinkedState there = state;
+    for (std::size_t b = 0; b < system.ball_count; ++b) {
+        there[b].x += seconds * (state[b].v + 0.5 * seconds * f.acceleration[b]);
+        there[b].v += seconds * f.acceleration[b];
+        there[b].w += seconds * f.spin_rate[b];
+    }
+    const ContactMotions at = contact_motions(system, there);
+    Turning still;
+    still.fill(Vec3::Zero());
+    const LinkedForces forces = forces_of_starts(system, at, SlipStarts(system, at), still);
+    Turning directions;
+    for (std::size_t i = 0; i < system.contact_count; ++i)
+        directions[i] = forces.contacts[i].direction;
+    return directions;
+}
+
 }  // namespace
 
 LinkedForces linked_forces(const LinkedBalls& system, const LinkedState& state) {
     const ContactMotions at = contact_motions(system, state);
-    SlipStarts starts(system, at);
+    const SlipStarts starts(system, at);
     if (starts.count() == 0) return forces_with(system, at, {});
-    // What happens at the slips that begin is linear in the forces that hold them back.
-    for (std::size_t i = 0; i <= 2 * starts.count(); ++i)
-        starts.take(i, forces_with(system, at, starts.probe(i)));
-    LinkedForces r = forces_with(system, at, starts.friction());
-    starts.fill_directions(r);
-    return r;
+    Turning turning;
+    turning.fill(Vec3::Zero());
+    const LinkedForces still = forces_of_starts(system, at, starts, turning);
+    // To first order a direction turns as it would if it did not lag.
+    const double seconds =
+        kTurningTime * std::sqrt(system.smallest_radius() / system.gravity.norm());
+    const Turning after = directions_at(system, state, still, seconds);
+    const Turning before = directions_at(system, state, still, -seconds);
+    for (std::size_t i = 0; i < system.contact_count; ++i)
+        turning[i] = (after[i] - before[i]) / (2 * seconds);
+    return forces_of_starts(system, at, starts, turning);
 }
 
 void project(const LinkedBalls& system, LinkedState& state) {

@@ -15,9 +15,8 @@ constexpr double kRounding = 1e-12;
 /// An idle contact's gap may open or shut at this fraction of gravity: more than kRounding.
 constexpr double kIdle = 3e-12;
 
-/// What drives a slip that begins may be less than 0 by so much of gravity: the end of the grip is
-/// where it is 0.
-constexpr double kLeastDrive = 1e-9;
+/// A slip is the difference of speeds, which leaves so much of them.
+constexpr double kSlipRounding = 4e-15;
 
 /// Without this contact it would not be pressed: it touches, but bears nothing.
 bool bears_nothing(const LinkedBalls& system, const LinkedState& state, std::size_t contact) {
@@ -46,7 +45,9 @@ bool is_idle(const LinkedBalls& system, const LinkedContactForces& forces) {
 
 double lag_of(const LinkedContactForces& forces, double speed) {
     const double slip = forces.slip.norm();
-    return slip > 10 * kNoLinkedSlip * speed ? (forces.slip / slip - forces.direction).norm() : 0;
+    if (slip <= 10 * kNoLinkedSlip * speed) return 0;
+    const double rounding = kSlipRounding * speed / slip;
+    return std::max((forces.slip / slip - forces.direction).norm() - rounding, 0.0);
 }
 
 bool begin_slip(LinkedBalls& system, const LinkedState& state, std::size_t contact) {

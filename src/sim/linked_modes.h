@@ -8,9 +8,14 @@ namespace carom {
 /// A slip of this fraction of the speeds is none: it rolls, if friction holds it.
 inline constexpr double kNoLinkedSlip = 1e-11;
 
-/// A slip that has begun follows what drives it while its direction lags by no more than this
-/// [rad]: later it has its own one.
-inline constexpr double kMostLag = 1e-7;
+/// A slip that has begun follows what drives it, and how that turns, while its direction is no more
+/// off than this [rad]: later it has its own one. Both are the same then, but before it the
+/// equation of the slip is stiff, and its direction is lost in rounding.
+inline constexpr double kMostLag = 1e-9;
+
+/// What drives a slip that begins may be less than 0 by so much of gravity: the end of the grip is
+/// where it is 0.
+inline constexpr double kLeastDrive = 1e-9;
 
 /// The size of the speeds at hand, m/s.
 double speed_of(const LinkedBalls& system, const LinkedState& state);
@@ -29,7 +34,7 @@ bool is_idle(const LinkedBalls& system, const LinkedContactForces& forces);
 /// How far from both [m/s^2]; below 0 it is not idle any more.
 double idle_room(const LinkedBalls& system, const LinkedContactForces& forces);
 
-/// How much an incipient slip lags behind its direction [rad].
+/// How much an incipient slip is off its direction [rad], beyond what rounding makes of that.
 double lag_of(const LinkedContactForces& forces, double speed);
 
 }  // namespace carom

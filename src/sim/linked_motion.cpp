@@ -176,8 +176,9 @@ class LinkedGates {
                 look(piece, i, LinkedEnd::kSlipGrows,
                      [&](const LinkedState&, const LinkedForces& f) {
                          const LinkedContactForces& at = f.contacts[i];
-                         return std::min(kMostLag - lag_of(at, speed_),
-                                         at.slip_rate.dot(at.direction) / system.gravity.norm());
+                         const double drive =
+                             at.slip_rate.dot(at.direction) / system.gravity.norm();
+                         return std::min(kMostLag - lag_of(at, speed_), drive + kLeastDrive);
                      });
             for (int k = 0; c.other < 0 && k < c.feature.gate_count; ++k)
                 look(piece, i, LinkedEnd::kFeature, [&](const LinkedState& s, const LinkedForces&) {

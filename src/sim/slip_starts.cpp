@@ -29,6 +29,14 @@ SlipStarts::SlipStarts(const LinkedBalls& system, const ContactMotions& at) {
     }
 }
 
+void SlipStarts::set_turning(const ContactMotions& at, std::span<const Vec3> turning) {
+    for (std::size_t k = 0; k < count_; ++k) {
+        Start& s = starts_[k];
+        const Vec3 lag = at[s.contact].slip.norm() * turning[s.contact];
+        s.lag = {s.t.dot(lag), s.u.dot(lag)};
+    }
+}
+
 std::span<const ForceRow> SlipStarts::probe(std::size_t i) {
     if (i == 0) return {};
     const Start& s = starts_[(i - 1) / 2];
@@ -61,7 +69,7 @@ void SlipStarts::take(std::size_t i, const LinkedForces& forces) {
 /// One direction, with the friction at the others as it is; returns how far it has turned.
 double SlipStarts::settle(Start& start) const {
     const auto own = static_cast<std::size_t>(&start - starts_.data());
-    Vec2 s0 = start.s0;
+    Vec2 s0 = start.s0 - start.lag;
     double n0 = start.n0;
     for (std::size_t k = 0; k < count_; ++k) {
         if (k == own) continue;
@@ -90,7 +98,7 @@ double SlipStarts::settle(Start& start) const {
 std::span<const ForceRow> SlipStarts::friction() {
     for (std::size_t k = 0; k < count_; ++k) {
         Start& s = starts_[k];
-        s.d = s.s0.stableNormalized();
+        s.d = (s.s0 - s.lag).stableNormalized();
         s.f = -s.mu * s.n0 * s.d;
     }
     for (int round = 0; round < kMostRounds; ++round) {

@@ -7,8 +7,8 @@
 
 namespace carom {
 
-/// A slip that begins has the direction d in which it grows under the friction against itself:
-///   s' = s0 + sum of A f is along d, with f = -mu N d and N = N0 + sum of b . f,
+/// A slip s that begins has the direction d in which it grows under the friction against itself:
+///   s' - |s| d' = s0 - |s| d' + sum of A f is along d, with f = -mu N d and N = N0 + sum of b . f,
 /// the sums over all slips that begin at the same time. s0, A, N0 and b are found by probing: the
 /// forces of the whole system without this friction, and with a unit of it at each.
 class SlipStarts {
@@ -16,6 +16,8 @@ class SlipStarts {
     SlipStarts(const LinkedBalls& system, const ContactMotions& at);
 
     std::size_t count() const { return count_; }
+    /// How fast the slips' directions turn (d', 1/s) and how large they are; without it they are 0.
+    void set_turning(const ContactMotions& at, std::span<const Vec3> turning);
     /// The friction of probe i, 0 ... 2 count().
     std::span<const ForceRow> probe(std::size_t i);
     void take(std::size_t i, const LinkedForces& forces);
@@ -30,7 +32,7 @@ class SlipStarts {
         std::size_t contact = 0;
         double mu = 0, unit = 1;
         Vec3 n, t, u;
-        Vec2 s0, d, f;
+        Vec2 s0, d, f, lag = Vec2::Zero();
         double n0 = 0;
         std::array<Eigen::Matrix2d, kMostLinkedContacts> a;
         std::array<Vec2, kMostLinkedContacts> b;
