@@ -1,6 +1,7 @@
 #include "sim/island_step.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/check.h"
@@ -18,7 +19,21 @@ constexpr double kRelaxation = 0.5;
 /// Overlaps up to this fraction of the smaller radius stay, so that resting balls do not move.
 constexpr double kSlop = 1e-9;
 
+/// A rise of energy by this fraction is rounding; potentials follow speeds after so many rounds.
+constexpr double kEnergyRounding = 1e-14;
+constexpr int kEnergyRounds = 3;
+
 double inverse_mass(const ExactWorld& world, int ball) { return 1 / world.ball(ball).mass; }
+
+/// How fast a contact's pair parts, m/s.
+double normal_speed(const Contact& c, const std::vector<ImpactBody>& bodies) {
+    const auto linear = [&](int i) {
+        return bodies[static_cast<std::size_t>(i)].velocities.linear;
+    };
+    Vec3 relative = linear(c.ball);
+    if (!c.other.is_surface) relative -= linear(c.other.index);
+    return relative.dot(c.normal);
+}
 
 }  // namespace
 
@@ -26,7 +41,10 @@ IslandStep::IslandStep(const ExactWorld& world, const Links& links, const std::v
                        double now)
     : world_(world), balls_(balls), results_(balls.size()), after_(balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
-        results_[i].start = world.state(balls[i], now);
+        const BallState& start = results_[i].start = world.state(balls[i], now);
+        places_.push_back(start.position);
+        kinetic_energy_ += 0.5 * world.ball(balls[i]).mass * start.velocity.squaredNorm() +
+                           turning_energy(i, start.spin);
         for (const Link& link : links.of(balls[i])) {
             const Contact c = world.contact_at(balls[i], link.partner, now);
             if (c.ball != balls[i]) continue;
@@ -80,29 +98,68 @@ void IslandStep::correct_positions() {
     }
 }
 
-void IslandStep::solve(IslandSolver& solver) {
-    std::vector<ImpactBody> bodies;
+/// The balls as the solver sees them, `ahead` seconds on.
+std::vector<ImpactBody> IslandStep::bodies(double ahead) const {
+    std::vector<ImpactBody> all;
     for (std::size_t i = 0; i < balls_.size(); ++i) {
         const ExactBall& b = world_.ball(balls_[i]);
         const BallState& s = results_[i].start;
-        bodies.push_back({s.position + 0.5 * seconds_ * s.velocity,
-                          {s.velocity, s.spin},
-                          b.mass,
-                          b.inertia_factor * b.mass * b.radius * b.radius});
+        all.push_back({s.position + ahead * s.velocity,
+                       {s.velocity, s.spin},
+                       b.mass,
+                       b.inertia_factor * b.mass * b.radius * b.radius});
     }
+    return all;
+}
+
+/// The contacts under the numbers that the balls have in the island, `ahead` seconds on.
+std::vector<Contact> IslandStep::local_contacts(double ahead) const {
     std::vector<Contact> local = contacts_;
     for (Contact& c : local) {
         c.depth = -gap(c, 0).gap;
-        c.normal = gap(c, 0.5 * seconds_).normal;
+        c.normal = gap(c, ahead).normal;
         c.arm = -world_.ball(c.ball).radius * c.normal;
         if (!c.other.is_surface) c.arm_other = world_.ball(c.other.index).radius * c.normal;
         c.ball = static_cast<int>(index_of(c.ball));
         if (!c.other.is_surface) c.other.index = static_cast<int>(index_of(c.other.index));
     }
-    solver.step(bodies, local, pushes_, world_.scene.simulation.gravity, seconds_);
+    return local;
+}
 
+/// What approaches meets without rebound at once: over a step it would overlap before it stops.
+void IslandStep::stop_approaches(IslandSolver& solver) {
+    std::vector<ImpactBody> meeting = bodies(0);
+    std::vector<Contact> local = local_contacts(0);
+    const bool approaches = std::any_of(local.begin(), local.end(), [&](const Contact& c) {
+        const double overlap = 0.5 * seconds_ * -normal_speed(c, meeting);
+        return c.depth > -kSlop * c.arm.norm() && overlap > kSlop * c.arm.norm();
+    });
+    if (!approaches) return;
+    for (Contact& c : local) c.depth = 0;
+    std::vector<Vec3> pushes(pushes_.size(), Vec3::Zero());
+    solver.step(meeting, local, pushes, Vec3::Zero(), seconds_);
+    std::vector<Velocities> velocities;
+    for (const ImpactBody& body : meeting) velocities.push_back(body.velocities);
+    set_start(velocities);
+}
+
+void IslandStep::set_start(const std::vector<Velocities>& velocities) {
     for (std::size_t i = 0; i < balls_.size(); ++i) {
-        after_[i] = bodies[i].velocities;
+        results_[i].start.velocity = velocities[i].linear;
+        results_[i].start.spin = velocities[i].spin;
+    }
+}
+
+void IslandStep::solve(IslandSolver& solver) {
+    stop_approaches(solver);
+    keep_energy_at_start();
+    std::vector<ImpactBody> moving = bodies(0.5 * seconds_);
+    std::vector<Contact> local = local_contacts(0.5 * seconds_);
+    solver.step(moving, local, pushes_, world_.scene.simulation.gravity, seconds_);
+
+    for (std::size_t i = 0; i < balls_.size(); ++i) after_[i] = moving[i].velocities;
+    keep_energy_at_end();
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
         Result& r = results_[i];
         r.acceleration = (after_[i].linear - r.start.velocity) / seconds_;
         r.spin_rate = (after_[i].spin - r.start.spin) / seconds_;
@@ -113,6 +170,73 @@ void IslandStep::solve(IslandSolver& solver) {
         contacts_[i] = local[i];
         contacts_[i].ball = ball;
         contacts_[i].other = other;
+    }
+}
+
+double IslandStep::turning_energy(std::size_t ball, const Vec3& spin) const {
+    const ExactBall& b = world_.ball(balls_[ball]);
+    return 0.5 * b.inertia_factor * b.mass * b.radius * b.radius * spin.squaredNorm();
+}
+
+/// The kinetic energy that the balls would have, less what gravity has done on the way to `ends`.
+double IslandStep::energy(const std::vector<Velocities>& velocities,
+                          const std::vector<Vec3>& ends) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+        const double mass = world_.ball(balls_[i]).mass;
+        sum += 0.5 * mass * velocities[i].linear.squaredNorm() +
+               turning_energy(i, velocities[i].spin) -
+               mass * world_.scene.simulation.gravity.dot(ends[i] - places_[i]);
+    }
+    return sum;
+}
+
+/// Takes an excess of energy [J] from speeds relative to the centre of mass, if that suffices.
+/// False where there is none beyond rounding.
+bool IslandStep::take_away(double excess, std::vector<Velocities>& velocities) const {
+    Vec3 centre = Vec3::Zero();
+    double total_mass = 0;
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+        centre += world_.ball(balls_[i]).mass * velocities[i].linear;
+        total_mass += world_.ball(balls_[i]).mass;
+    }
+    centre /= total_mass;
+    double relative = 0;
+    for (std::size_t i = 0; i < balls_.size(); ++i)
+        relative +=
+            0.5 * world_.ball(balls_[i]).mass * (velocities[i].linear - centre).squaredNorm() +
+            turning_energy(i, velocities[i].spin);
+    const double all = relative + 0.5 * total_mass * centre.squaredNorm();
+    if (excess <= kEnergyRounding * all) return false;
+    const bool suffices = relative > 2 * excess;
+    if (!suffices) centre.setZero();
+    const double factor = std::sqrt(std::max(0.0, 1 - excess / (suffices ? relative : all)));
+    for (Velocities& v : velocities) {
+        v.linear = centre + factor * (v.linear - centre);
+        v.spin *= factor;
+    }
+    return true;
+}
+
+/// Places that are put right may lie higher.
+void IslandStep::keep_energy_at_start() {
+    std::vector<Velocities> velocities;
+    std::vector<Vec3> places;
+    for (const Result& r : results_) {
+        velocities.push_back({r.start.velocity, r.start.spin});
+        places.push_back(r.start.position);
+    }
+    if (take_away(energy(velocities, places) - kinetic_energy_, velocities)) set_start(velocities);
+}
+
+void IslandStep::keep_energy_at_end() {
+    for (int round = 0; round < kEnergyRounds; ++round) {
+        std::vector<Vec3> ends;
+        for (std::size_t i = 0; i < balls_.size(); ++i) {
+            const BallState& start = results_[i].start;
+            ends.push_back(start.position + 0.5 * seconds_ * (start.velocity + after_[i].linear));
+        }
+        if (!take_away(energy(after_, ends) - kinetic_energy_, after_)) return;
     }
 }
 

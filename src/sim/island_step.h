@@ -58,11 +58,23 @@ class IslandStep {
 
   private:
     Nearest gap(const Contact& contact, double ahead) const;
+    std::vector<ImpactBody> bodies(double ahead) const;
+    std::vector<Contact> local_contacts(double ahead) const;
+    void stop_approaches(IslandSolver& solver);
+    void set_start(const std::vector<Velocities>& velocities);
+    double turning_energy(std::size_t ball, const Vec3& spin) const;
     std::size_t index_of(int ball) const;
+    // Contacts and friction give no energy: what a step's error would add is taken from the speeds.
+    void keep_energy_at_start();
+    void keep_energy_at_end();
+    bool take_away(double excess, std::vector<Velocities>& velocities) const;
+    double energy(const std::vector<Velocities>& velocities, const std::vector<Vec3>& ends) const;
 
     const ExactWorld& world_;
     const std::vector<int>& balls_;
     double seconds_ = kIslandStep;
+    double kinetic_energy_ = 0;  ///< at the start, J
+    std::vector<Vec3> places_;   ///< at the start, before they are corrected
     std::vector<Result> results_;
     std::vector<Velocities> after_;
     std::vector<Contact> contacts_;
