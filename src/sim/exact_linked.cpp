@@ -137,9 +137,11 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     if (island.size() == 1 && is.contacts.size() < 2) return false;
     const LinkedForces before = linked_forces(is.system, is.state);
     const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
-    if (std::any_of(is.contacts.begin(), is.contacts.end(),
-                    [&](const Contact& c) { return landing_of(c, now) != nullptr; }))
-        land(is.system, is.state);
+    std::array<bool, kMostLinkedContacts> lands{};
+    for (std::size_t i = 0; i < is.contacts.size(); ++i)
+        lands[i] = landing_of(is.contacts[i], now) != nullptr;
+    if (std::find(lands.begin(), lands.end(), true) != lands.end())
+        land(is.system, lands, is.state);
     if (!choose_modes(is.system, is.state)) return false;
     bool parted = false;
     LinkedForces forces = linked_forces(is.system, is.state);

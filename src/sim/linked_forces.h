@@ -19,8 +19,10 @@ LinkedForces linked_forces(const LinkedBalls& system, const LinkedState& state);
 void project(const LinkedBalls& system, LinkedState& state);
 
 /// Of contacts whose last bounces are summed, takes away the speeds along the normals with what
-/// friction the impacts would not have: without_bounces() of one ball (flat_contact.h).
-void land(const LinkedBalls& system, LinkedState& state);
+/// friction the impacts would not have: without_bounces() of one ball (flat_contact.h). Other
+/// contacts lose theirs without friction.
+void land(const LinkedBalls& system, const std::array<bool, kMostLinkedContacts>& lands,
+          LinkedState& state);
 
 /// mu N - |f|: a contact rolls while this is >= 0 [N].
 double grip_left(const LinkedContact& contact, const LinkedContactForces& forces);
