@@ -130,12 +130,14 @@ std::vector<Contact> IslandStep::local_contacts(double ahead) const {
 void IslandStep::stop_approaches(IslandSolver& solver) {
     std::vector<ImpactBody> meeting = bodies(0);
     std::vector<Contact> local = local_contacts(0);
-    const bool approaches = std::any_of(local.begin(), local.end(), [&](const Contact& c) {
-        const double overlap = 0.5 * seconds_ * -normal_speed(c, meeting);
-        return c.depth > -kSlop * c.arm.norm() && overlap > kSlop * c.arm.norm();
-    });
+    bool approaches = false;
+    for (Contact& c : local) {
+        const double overlap = c.depth - 0.5 * seconds_ * normal_speed(c, meeting);
+        if (normal_speed(c, meeting) >= 0 || overlap <= kSlop * c.arm.norm()) continue;
+        approaches = true;
+        c.depth = 0;
+    }
     if (!approaches) return;
-    for (Contact& c : local) c.depth = 0;
     std::vector<Vec3> pushes(pushes_.size(), Vec3::Zero());
     solver.step(meeting, local, pushes, Vec3::Zero(), seconds_);
     std::vector<Velocities> velocities;
