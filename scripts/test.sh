@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Sets up a fresh machine with the test packages, then runs the tests: all in a release build, and
-# those of simulation, drawing and media with the address and undefined behaviour sanitizers, but for
-# the longest piles. What takes longer is in scripts/test_long.sh.
+# those of what reads and writes files with the address and undefined behaviour sanitizers. What takes
+# longer, as simulation and drawing with them, is in scripts/test_long.sh.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

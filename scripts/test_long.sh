@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# What scripts/test.sh leaves out because it takes long or needs large packages: the Debug build, the
-# thread sanitizer, the film in a browser, format and lint.
+# What scripts/test.sh leaves out because it takes long or needs large packages: all tests with the
+# address and undefined behaviour sanitizers and with that of threads, the Debug build, the film in a
+# browser, format and lint.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

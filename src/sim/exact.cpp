@@ -20,8 +20,11 @@ namespace {
 /// Events at one instant, up to this many roundings of the time, belong together.
 constexpr double kTogether = 4 * std::numeric_limits<double>::epsilon();
 
-/// Events without progress in time, before the run is given up. A rack of balls needs hundreds.
-constexpr int kMostAtOneInstant = 100'000;
+/// Events without progress in time, before a ball is stepped instead. A rack of balls needs
+/// hundreds, one ball by itself hardly any. Where even that does not help, the run is given up.
+constexpr int kMostAtOneInstant = 20'000;
+constexpr int kMostOfOneBall = 200;
+constexpr int kMostGivenUpAtOnce = 1000;
 
 /// Impacts with a larger coefficient do not make a crowd: a dense gas of balls that lose hardly
 /// anything is followed impact by impact, so that its energy is kept.
@@ -30,6 +33,28 @@ constexpr double kMostOfCrowd = 0.9;
 /// Events between two looks at the stop token, where nothing is stepped or integrated, which takes
 /// a hundred times as long.
 constexpr std::int64_t kEventsPerLook = 1024;
+
+/// Counts events at one instant.
+class Standstill {
+  public:
+    bool ends() {
+        *this = {};
+        return false;
+    }
+    /// Whether the next event is one too many; a step of a crowd, which gets on by itself, is none.
+    bool stuck(const Prediction& next) {
+        of_one_ball_ = next.ball == ball_ ? of_one_ball_ + 1 : 0;
+        ball_ = next.ball;
+        if (++events_ <= kMostAtOneInstant && of_one_ball_ <= kMostOfOneBall) return false;
+        of_one_ball_ = 0;
+        ++given_up_;
+        return true;
+    }
+    bool is_hopeless() const { return given_up_ > kMostGivenUpAtOnce; }
+
+  private:
+    int events_ = 0, of_one_ball_ = 0, ball_ = -1, given_up_ = 0;
+};
 
 }  // namespace
 
@@ -90,7 +115,7 @@ Prediction ExactRun::due(int ball) const {
 void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progress,
                    bool until_rest) {
     double last = -1;
-    int at_one_instant = 0;
+    Standstill standstill;
     std::int64_t looked = 0;  // how much that takes long had been done
     for (std::int64_t events = 0;; ++events) {
         const DueList::Entry first = due_.first();
@@ -109,14 +134,16 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
             fetch(due_.first().ball);  // most likely the next one
             if (!current(next)) continue;
         }
-        at_one_instant = next.time > last ? 0 : at_one_instant + 1;
-        if (at_one_instant > kMostAtOneInstant)
-            refuse("more events at one instant than can be resolved", next.ball, next.partner,
-                   next.time);
+        const bool stuck = next.time > last ? standstill.ends() : standstill.stuck(next);
         last = std::max(last, next.time);
 
         if (step) {
             step_crowd(next.time);
+        } else if (stuck) {
+            if (standstill.is_hopeless())
+                refuse("more events at one instant than can be resolved", next.ball, next.partner,
+                       next.time);
+            give_up_on(next);
         } else {
             take_together(next);
             happen(next.time);
@@ -172,8 +199,8 @@ SimulationResult ExactRun::finish() {
             : Effect{false, "no two lasting contacts of a ball at the same time"};
     report_.effects["last_resort"] =
         report_.given_up > 0
-            ? Effect{true, fmt::format("{} times a contact that could not be integrated was "
-                                       "stepped by ODE for a while",
+            ? Effect{true, fmt::format("{} times a contact that could not be integrated, or whose "
+                                       "events had no end, was stepped by ODE for a while",
                                        report_.given_up)}
             : Effect{false, "no contact was given up on"};
     return {std::move(motion_), std::move(report_)};
@@ -228,6 +255,18 @@ void ExactRun::happen(double now) {
         if (world_.ball(seed.ball).resolved != instant_) resolve(seed, now);
     }
     if (!stepped_.empty()) step_islands(stepped_, now);
+}
+
+/// Events of a ball that have no end in time: it is stepped, as is what it meets.
+void ExactRun::give_up_on(const Prediction& p) {
+    for (const int ball : {p.ball, p.partner.is_surface ? -1 : p.partner.index}) {
+        if (ball < 0 || world_.ball(ball).crowded) continue;
+        CurvedPhase& phase = curved_[ball];
+        phase.state = {world_.position(ball, p.time), world_.velocities(ball, p.time).linear,
+                       world_.velocities(ball, p.time).spin};
+        step_instead(ball, p.time);
+        predict(ball, p.time);
+    }
 }
 
 /// The contact of an impact that has come. On a surface the ball takes what rounding left of the

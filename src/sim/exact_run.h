@@ -99,6 +99,7 @@ class ExactRun {
     void lift_off(int ball, double now, const Partner& surface, const Vec3& normal);
     void advance(int ball, double now);
     void step_instead(int ball, double now);
+    void give_up_on(const Prediction& p);
     void end_curved(int ball, double now);
     void put_at(int ball, double now, const Vec3& x);
     void put_on_surface(int ball, double now);
