@@ -84,5 +84,32 @@ TEST(StiffSlip, AShellInACornerComesToItsEnd) {
     EXPECT_GE(0.730994151982081 - s.position.y(), ball.radius - 1e-9);
 }
 
+/// Friction at a wall lifts the ball off the floor, whose friction throws it at the wall: impacts
+/// that get smaller without end, and a contact that begins and ends at once where they have come to
+/// it. The run goes on, and energy does not rise.
+TEST(StiffSlip, ImpactsWithoutEndInACornerComeToOne) {
+    int given_up = 0;
+    for (const double mu : {1.0, 4.0, 3.55566674908603 * 3.55566674908603})
+        for (const double more : {0.0, 0.1}) {
+            Scene scene = exact_scene(0, mu, kGravity);
+            scene.simulation.duration = 1.4;
+            add_plane(scene, Vec3::UnitZ(), -1.5);
+            add_plane(scene, -Vec3::UnitX(), -1.5);
+            const Vec3 at(0.5927809247424802, 0.3530294387304651, -0.29347438253622843);
+            const Vec3 v(0.9019196629265838, -0.07511405660473429, 0.1815726630886795);
+            add_ball(scene, at, (1 + more) * v, 0.06988184327889294).mass = 1.725720321578972;
+            const SimulationResult result = simulate(scene);
+            given_up += static_cast<int>(result.report.given_up);
+            double least = energy(scene, result.motion.balls[0].at(0));
+            for (int i = 1; i <= 400; ++i) {
+                const double now = energy(scene, result.motion.balls[0].at(0.0035 * i));
+                EXPECT_LE(now, least + 1e-9) << mu << " at " << 0.0035 * i;
+                least = std::min(least, now);
+            }
+        }
+    fmt::print("{} times the last resort\n", given_up);
+    EXPECT_GE(given_up, 1);
+}
+
 }  // namespace
 }  // namespace carom::testing
