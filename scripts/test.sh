@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh --group film --group test --group bench --preset release-tests --preset asan
+scripts/setup.sh --group film --group test --preset release-tests --preset asan
 for preset in release-tests asan; do
     echo "test: preset $preset"
     ctest --preset "$preset" -j "$(nproc)"

@@ -5,8 +5,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh --group film --group test --group long \
-    --preset dev --preset tsan --preset release-tests
+scripts/setup.sh --group film --group test --group bench --group long \
+    --preset dev --preset tsan --preset release-tests --preset bench
 
 echo "test_long: format"
 git ls-files 'src/*.cpp' 'src/*.h' 'tests/*.cpp' 'bench/*.cpp' | xargs clang-format --dry-run --Werror
