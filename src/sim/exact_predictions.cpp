@@ -334,6 +334,10 @@ void ExactRun::join_at_once(int ball, double now) {
     next.stamp = world_.ball(ball).stamp;
 }
 
+double ExactRun::gap_at(int ball, const Partner& partner, double time) const {
+    return -world_.contact_at(ball, partner, time).depth;
+}
+
 /// Takes an impact over into the ball's prediction if it comes first.
 void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi, bool touching,
                       double separation, double from, double now) {
@@ -344,8 +348,10 @@ void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi,
     }
     if (toi.state == ImpactState::kCapped) refuse("time of impact not found", ball, partner, now);
     if (touching && toi.s > 0) {
+        // On a flat surface; what a curved one falls away by, the middle of the way tells.
         const double hop = 0.25 * toi.s * separation;
-        if (hop < hop_limit(ball, world_.position(ball, from))) {
+        const double limit = hop_limit(ball, world_.position(ball, from));
+        if (hop < limit && gap_at(ball, partner, from + 0.5 * toi.s) < limit) {
             const double e = world_.contact_at(ball, partner, from).restitution;
             return press(ball, partner, now, from + series_seconds(toi.s, e));
         }
