@@ -75,8 +75,13 @@ double still(const Path& p) { return kRounding * p.velocity.norm(); }
 /// The earliest crossing of several features at which the whole body is really touched.
 class EarliestTouch {
   public:
-    EarliestTouch(const Path& ball, double radius, const SurfaceShape& shape)
-        : ball_(ball), radius_(radius), shape_(shape) {}
+    /// Of what touches, the gap of now counts as 0, and so does a later one of the same size.
+    EarliestTouch(const Path& ball, double radius, const SurfaceShape& shape, bool touching)
+        : ball_(ball),
+          radius_(radius),
+          shape_(shape),
+          gap_(touching ? std::max(nearest_on_surface(ball.position, radius, shape).gap, 0.0)
+                        : 0.0) {}
 
     /// `holds`: the motion leads to this feature, which therefore decides whether they press.
     void offer(const Crossings& found, bool holds) {
@@ -102,12 +107,13 @@ class EarliestTouch {
         const double speed = (ball_.velocity + s * ball_.acceleration).norm();
         const double scale = ball_.position.cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() +
                              speed * s + radius_;
-        return nearest_on_surface(center, radius_, shape_).gap <= kRounding * scale;
+        return nearest_on_surface(center, radius_, shape_).gap <= gap_ + kRounding * scale;
     }
 
     const Path& ball_;
     double radius_;
     const SurfaceShape& shape_;
+    double gap_;
     TimeOfImpact result_;
     bool pressed_ = false;
 };
@@ -219,7 +225,7 @@ TimeOfImpact impact_with_capsule(const Path& ball, double radius, const CapsuleS
     const double d = radius + capsule.radius;
     const Vec3 axis = (capsule.to - capsule.from).normalized();
     const int side = touching ? side_along(ball, radius, capsule, axis) : 0;
-    EarliestTouch earliest(ball, radius, shape);
+    EarliestTouch earliest(ball, radius, shape, touching);
     const auto offer = [&](const Path& p, int at) {
         const bool here = is_contact(touching, p.position.norm() - d, d);
         earliest.offer(crossings(squared_distance(p, d), here, horizon, 2 * d * still(p)),
@@ -242,7 +248,7 @@ TimeOfImpact impact_with_box(const Path& ball, double radius, const BoxShape& bo
     const Bounds bounds(p, horizon);
     if (!touching && !bounds.reaches(-half, half, radius)) return {};
     const SurfaceShape own_frame = BoxShape{Vec3::Zero(), box.size, Quat::Identity()};
-    EarliestTouch earliest(p, radius, own_frame);
+    EarliestTouch earliest(p, radius, own_frame, touching);
     using Sides = std::array<int, 3>;
     const double border = kBorder * (ball.position.cwiseAbs().maxCoeff() + radius);
     const Sides sides = touching ? sides_of(p, half, border) : Sides{};
