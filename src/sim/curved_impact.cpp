@@ -192,14 +192,17 @@ TimeOfImpact curved_impact_with_sphere(const CurvedPath& path, double distance, 
 
 TimeOfImpact curved_impact_with_surface(const CurvedPath& ball, double radius,
                                         const SurfaceShape& shape, bool touching) {
-    if (!touching && nearest_on_surface(ball.c[0], radius, shape).gap > ball.reach()) return {};
+    const double gap = nearest_on_surface(ball.c[0], radius, shape).gap;
+    if (!touching && gap > ball.reach()) return {};
+    // Of what touches, the gap of now counts as 0, and so does a later one of the same size.
+    const double none = touching ? std::max(gap, 0.0) : 0;
     FirstTouch first(ball, touching);
     const auto always = [](double) { return true; };
     const auto touched = [&](double u) {
         const Vec3 center = ball.at(u);
         const double scale =
             ball.c[0].cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() + ball.reach() + radius;
-        return nearest_on_surface(center, radius, shape).gap <= kRounding * scale;
+        return nearest_on_surface(center, radius, shape).gap <= none + kRounding * scale;
     };
     if (const auto* plane = std::get_if<PlaneShape>(&shape)) {
         first.offer(plane_gap(ball, plane->normal, plane->offset_m + radius), radius, 1, true,
