@@ -22,6 +22,10 @@ constexpr double kLeastPush = 1e-13;
 /// is found: to 1e-9 of it by curvature, and to 1e-8 by rounding.
 constexpr double kTurningTime = 1e-5;
 
+/// A turn that bends by more than this fraction in that time is rounding, or that of directions
+/// which the motion leaves undetermined: it counts as none.
+constexpr double kSmoothTurn = 0.01;
+
 /// Rounds of putting places right; each squares what is left.
 constexpr int kPlaceRounds = 3;
 
@@ -135,8 +139,11 @@ LinkedForces linked_forces(const LinkedBalls& system, const LinkedState& state) 
         kTurningTime * std::sqrt(system.smallest_radius() / system.gravity.norm());
     const Turning after = directions_at(system, state, still, seconds);
     const Turning before = directions_at(system, state, still, -seconds);
-    for (std::size_t i = 0; i < system.contact_count; ++i)
-        turning[i] = (after[i] - before[i]) / (2 * seconds);
+    for (std::size_t i = 0; i < system.contact_count; ++i) {
+        const Vec3 turn = after[i] - before[i];
+        const Vec3 bend = after[i] + before[i] - 2 * still.contacts[i].direction;
+        if (bend.norm() < kSmoothTurn * turn.norm()) turning[i] = turn / (2 * seconds);
+    }
     return forces_of_starts(system, at, starts, turning);
 }
 
