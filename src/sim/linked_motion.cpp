@@ -197,11 +197,19 @@ class LinkedGates {
                 const LinkedState state = on_fit(s);
                 return gate(state, course_.forces(state));
             });
+        // From the latest instant before the crossing that is known on, which comes nearer to it.
+        double known = 0;
+        LinkedNumbers there = course_.first();
         const auto on_course = [&](double s) {
-            LinkedNumbers y = course_.first();
-            course_.advance(y, s);
+            LinkedNumbers y = s >= known ? there : course_.first();
+            course_.advance(y, s >= known ? s - known : s);
             const LinkedState state = course_.state(y);
-            return gate(state, course_.forces(state));
+            const double value = gate(state, course_.forces(state));
+            if (value >= 0 && s > known) {
+                known = s;
+                there = y;
+            }
+            return value;
         };
         const std::optional<double> s = looks.first_negative(on_course, piece.seconds, false);
         if (!s || *s >= piece.seconds) return;
