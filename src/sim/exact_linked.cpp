@@ -122,6 +122,15 @@ void ExactRun::unlink(const Contact& c, double now) {
     if (!c.other.is_surface) forget(c.other.index, {false, c.ball});
 }
 
+/// Whether the contact has had an impact at this instant, the friction of which it gives back: that
+/// of an earlier one has had its effect.
+bool ExactRun::has_hit(const Contact& c, double now) const {
+    const std::vector<Event>& events = motion_.events;
+    for (auto e = events.rbegin(); e != events.rend() && e->time == now; ++e)
+        if (e->kind == EventKind::kImpact && e->ball == c.ball && e->other == c.other) return true;
+    return false;
+}
+
 ExactRun::Parting* ExactRun::parting_of(const Contact& contact, double now) {
     const auto found = std::find_if(partings_.begin(), partings_.end(), [&](const Parting& p) {
         return p.time == now && p.ball == contact.ball && p.partner == contact.other;
@@ -137,11 +146,14 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     if (island.size() == 1 && is.contacts.size() < 2) return false;
     const LinkedForces before = linked_forces(is.system, is.state);
     const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
-    std::array<bool, kMostLinkedContacts> lands{};
-    for (std::size_t i = 0; i < is.contacts.size(); ++i)
-        lands[i] = landing_of(is.contacts[i], now) != nullptr;
-    if (std::find(lands.begin(), lands.end(), true) != lands.end())
-        land(is.system, lands, is.state);
+    std::array<bool, kMostLinkedContacts> gives_back{};
+    bool lands = false;
+    for (std::size_t i = 0; i < is.contacts.size(); ++i) {
+        if (landing_of(is.contacts[i], now) == nullptr) continue;
+        lands = true;
+        gives_back[i] = now == 0 || has_hit(is.contacts[i], now);  // the first hop had no impact
+    }
+    if (lands) land(is.system, gives_back, is.state);
     if (!choose_modes(is.system, is.state)) return false;
     bool parted = false;
     LinkedForces forces = linked_forces(is.system, is.state);

@@ -177,15 +177,16 @@ void project(const LinkedBalls& system, LinkedState& state) {
     }
 }
 
-void land(const LinkedBalls& system, const std::array<bool, kMostLinkedContacts>& lands,
+void land(const LinkedBalls& system, const std::array<bool, kMostLinkedContacts>& gives_back,
           LinkedState& state) {
     const ContactMotions at = contact_motions(system, state);
     LinkedBalls sliding = system;
     const double no_slip = kNoLinkedSlip * speed_of(system, state);
     for (std::size_t i = 0; i < sliding.contact_count; ++i) {
         LinkedContact& c = sliding.contacts[i];
-        c.mode = lands[i] && c.friction > 0 && at[i].slip.norm() > no_slip ? CurvedMode::kSliding
-                                                                           : CurvedMode::kSmooth;
+        c.mode = gives_back[i] && c.friction > 0 && at[i].slip.norm() > no_slip
+                     ? CurvedMode::kSliding
+                     : CurvedMode::kSmooth;
     }
     const ForceEquations equations(sliding, at, Rows::kNormals, Sliding::kHeldBack);
     ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));

@@ -19,9 +19,9 @@ LinkedForces linked_forces(const LinkedBalls& system, const LinkedState& state);
 void project(const LinkedBalls& system, LinkedState& state);
 
 /// Of contacts whose last bounces are summed, takes away the speeds along the normals with what
-/// friction the impacts would not have: without_bounces() of one ball (flat_contact.h). Other
-/// contacts lose theirs without friction.
-void land(const LinkedBalls& system, const std::array<bool, kMostLinkedContacts>& lands,
+/// friction the impacts would not have, where a contact gives that back: without_bounces() of one
+/// ball (flat_contact.h). Others lose theirs without friction.
+void land(const LinkedBalls& system, const std::array<bool, kMostLinkedContacts>& gives_back,
           LinkedState& state);
 
 /// mu N - |f|: a contact rolls while this is >= 0 [N].
