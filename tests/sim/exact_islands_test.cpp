@@ -249,5 +249,48 @@ TEST(ExactIslands, RemovedSupportWakes) {
     EXPECT_GT(bottom, 5);
 }
 
+// Balls that are thrown into a corner come to lie there through steps: none of them lifts a ball,
+// or speeds it up, beyond what it had.
+TEST(ExactIslands, StepsInACornerAddNoEnergy) {
+    std::int64_t steps = 0;
+    double worst = 0;
+    for (int k = 0; k < 12; k += 2) {
+        Scene scene = exact_scene(0.1 * (k % 4), 0.2 * (k % 5));
+        use_pair(scene, 0.3, 0.4);
+        scene.simulation.gravity = Vec3(6, 4 + 0.3 * k, -7);
+        scene.simulation.duration = 1.5;
+        add_plane(scene);
+        add_plane(scene, -Vec3::UnitX(), -0.5);
+        add_plane(scene, -Vec3::UnitY(), -0.5);
+        for (int i = 0; i < 4; ++i)
+            add_ball(scene, Vec3(0.1 + 0.03 * k * i, 0.3 - 0.02 * k, 0.1 + 0.15 * i),
+                     Vec3(0.3 * i, 0.1 * k, 0), 0.05 + 0.01 * (i % 2));
+        const SimulationResult r = simulate(scene);
+        steps += r.report.steps;
+        const auto total = [&](double t) {
+            double sum = 0;
+            for (std::size_t b = 0; b < scene.balls.size(); ++b) {
+                const BallState s = r.motion.balls[b].at(t);
+                const Ball& ball = scene.balls[b];
+                sum += ball.mass * (0.5 * s.velocity.squaredNorm() +
+                                    0.5 * ball.inertia_factor * ball.radius * ball.radius *
+                                        s.spin.squaredNorm() -
+                                    scene.simulation.gravity.dot(s.position));
+            }
+            return sum;
+        };
+        double least = total(0);
+        for (int i = 1; i <= 3000; ++i) {
+            const double now = total(1.5 * i / 3000);
+            worst = std::max(worst, now - least);
+            least = std::min(least, now);
+        }
+    }
+    std::printf("%lld steps, energy rises by %.2g J at most (1e-6)\n",
+                static_cast<long long>(steps), worst);
+    EXPECT_GE(steps, 100);
+    EXPECT_LE(worst, 1e-6);
+}
+
 }  // namespace
 }  // namespace carom::testing

@@ -277,6 +277,43 @@ TEST(Joints, AFastBallLeavesAtTheEdgeAndLandsAsAParabolaDoes) {
     }
 }
 
+/// Over a joint of two rails the centre goes around it at the distance from their plane that it has
+/// between them; above v^2 = g times that it flies, and lands where the parabola meets the line
+/// that the centre has between the next rails.
+TEST(Joints, AFastBallFliesOverAJointOfRails) {
+    constexpr double kApart = 0.09, kRail = 0.06;
+    const double distance = kR + kRail;
+    const double height = std::sqrt(distance * distance - kApart * kApart);
+    for (const double degrees : {2.0, 10.0, 25.0})
+        for (const double speed : {1.4, 2.0}) {
+            ASSERT_GT(speed * speed, kG * height);
+            const double angle = degrees * M_PI / 180;
+            Scene scene = exact_scene(0, 0, kG);
+            for (const double y : {-kApart, kApart}) {
+                add_surface(scene, "level", CapsuleShape{Vec3(-1, y, 0), Vec3(0, y, 0), kRail});
+                add_surface(
+                    scene, "steep",
+                    CapsuleShape{Vec3(0, y, 0), Vec3(2 * std::cos(angle), y, -2 * std::sin(angle)),
+                                 kRail});
+            }
+            add_ball(scene, Vec3(-0.14, 0, height), Vec3(speed, 0, 0), kR);
+            const double begin = 0.14 / speed;
+            const double up = speed * std::sin(angle), fall = kG * std::cos(angle);
+            const double rise = height * (std::cos(angle) - 1);
+            const double flight = (up + std::sqrt(up * up + 2 * fall * rise)) / fall;
+            scene.simulation.duration = begin + flight + 0.02;
+            const SimulationResult r = simulate(scene);
+            EXPECT_EQ(r.report.steps, 0) << degrees;
+            const std::vector<Event> impacts = impacts_of(r.motion);
+            ASSERT_EQ(impacts.size(), 2u) << degrees << ", " << speed;
+            for (const Event& e : impacts) EXPECT_NEAR(e.time, begin + flight, 1e-11) << degrees;
+            const double lost = up - fall * flight;
+            EXPECT_NEAR(energy(scene, r.motion.balls[0].at(0)) -
+                            energy(scene, r.motion.balls[0].at(*scene.simulation.duration)),
+                        0.5 * lost * lost, 1e-11);
+        }
+}
+
 TEST(Joints, ASlowBallPivotsOverTheEdgeAndKeepsItsEnergy) {
     for (const auto& [a, b] : {std::pair{12.0, 14.0}, std::pair{0.0, 3.0}, std::pair{2.0, 2.5}})
         for (const double friction : {0.0, 0.9}) {

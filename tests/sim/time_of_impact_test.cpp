@@ -7,6 +7,8 @@
 #include <optional>
 #include <random>
 
+#include "sim/curved_impact.h"
+
 namespace carom {
 namespace {
 
@@ -167,6 +169,31 @@ TEST(TimeOfImpact, TouchingBallMeetsAgainOnlyAfterItsHop) {
             const TimeOfImpact found = impact_with_plane(path, 0.1, floor, true, 10);
             ASSERT_EQ(found.state, ImpactState::kHit);
             EXPECT_LE(std::abs(found.s / (2 * v / 9.81) - 1), 1e-15);
+        }
+}
+
+// A gap of rounding counts as none, and so does the same gap when it shuts again; far from the
+// origin, and against a rail as well.
+TEST(TimeOfImpact, AGapThatCountsAsNoneDoesSoWhenItShutsAgain) {
+    const Vec3 g(0, 0, -3);
+    for (const double rounding : {0.0, 1.4e-14, 3e-12})
+        for (const double v : {4e-8, 1e-7, 1e-3}) {
+            const BoxShape box{Vec3(0.3, 0.1, -0.5), Vec3(2, 2, 1), Quat::Identity()};
+            const Path path{Vec3(0.2, 0, 0.1 + rounding), Vec3(1e-7, 0, v), g};
+            const CapsuleShape rail{Vec3(-1, 0, -0.05), Vec3(1, 0, -0.05), 0.05};
+            for (const SurfaceShape& shape : {SurfaceShape(box), SurfaceShape(rail)}) {
+                const TimeOfImpact found = impact_with_surface(path, 0.1, shape, true, 10);
+                ASSERT_EQ(found.state, ImpactState::kHit) << rounding << ", " << v;
+                EXPECT_LE(std::abs(found.s / (2 * v / 3) - 1), 1e-9);
+                Piece piece;
+                piece.position = path.position;
+                piece.velocity = path.velocity;
+                piece.acceleration = g;
+                const TimeOfImpact curved =
+                    curved_impact_with_surface(curved_path(piece, 0, 1), 0.1, shape, true);
+                ASSERT_EQ(curved.state, ImpactState::kHit) << rounding << ", " << v;
+                EXPECT_LE(std::abs(curved.s / (2 * v / 3) - 1), 1e-6);
+            }
         }
 }
 
