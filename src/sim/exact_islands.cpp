@@ -203,8 +203,14 @@ bool ExactRun::leave_island(int ball, double now) {
     // step does.
     const bool presses = !world_.ball(ball).coarse && pressing_gravity(contact.normal) > 0 &&
                          parting_of(contact, now) == nullptr;
-    if (world_.ball(ball).steps == 0 && !presses) return false;
-    if (!presses && !link.pressed && velocities.linear.dot(contact.normal) > 0) {  // lifted off
+    const double v = velocities.linear.dot(contact.normal);
+    // Nothing brings it back.
+    const bool parts = !world_.ball(ball).coarse && pressing_gravity(contact.normal) == 0 &&
+                       landing_of(contact, now) == nullptr &&
+                       v > kStillFraction * velocities.linear.norm() +
+                               world_.ball(ball).rounding_speed;
+    if (world_.ball(ball).steps == 0 && !presses && !parts) return false;
+    if (parts || (!presses && !link.pressed && v > 0)) {  // lifted off
         if (link.stated != EventKind::kLeave || link.from_start)
             row_of(contact, EventKind::kLeave, now);
         links.clear();
@@ -216,7 +222,6 @@ bool ExactRun::leave_island(int ball, double now) {
         world_.ball(ball).kind = link.stated;
     }
     links.clear();
-    const double v = velocities.linear.dot(contact.normal);
     const bool lands = landing_of(contact, now) != nullptr;
     stay(ball, now, contact, lands ? landed(ball, now, contact, velocities, v) : velocities,
          std::max(link.row_due - now, 0.0), link.from_start);
