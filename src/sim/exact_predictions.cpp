@@ -315,6 +315,13 @@ bool ExactRun::rests_against(int ball, const Partner& partner, double now) {
     return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
 }
 
+/// A ball in flight along a surface to which gravity is parallel: only rounding presses.
+bool ExactRun::flies_along(int ball, const Partner& partner, double now) const {
+    const ExactBall& b = world_.ball(ball);
+    return partner.is_surface && !b.stepped && b.surface < 0 && !b.piece.curve &&
+           pressing_gravity(world_.contact_at(ball, partner, now).normal) == 0;
+}
+
 /// What touches will go on to do so.
 void ExactRun::press(int ball, const Partner& partner, double now, double row_due) {
     const Contact contact = world_.contact_at(ball, partner, now);
@@ -343,7 +350,8 @@ void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi,
                       double separation, double from, double now) {
     if (toi.state == ImpactState::kMiss) return;
     if (toi.state == ImpactState::kPressed) {
-        if (!rests_against(ball, partner, now)) press(ball, partner, now, now);
+        if (!rests_against(ball, partner, now) && !flies_along(ball, partner, now))
+            press(ball, partner, now, now);
         return;
     }
     if (toi.state == ImpactState::kCapped) refuse("time of impact not found", ball, partner, now);

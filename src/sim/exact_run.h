@@ -107,6 +107,7 @@ class ExactRun {
     // Islands of lasting contacts that ODE steps: exact_islands.cpp and exact_links.cpp.
     void join(int ball, double now, const Velocities& velocities);
     bool rests_against(int ball, const Partner& partner, double now);
+    bool flies_along(int ball, const Partner& partner, double now) const;
     double gap_at(int ball, const Partner& partner, double time) const;
     void press(int ball, const Partner& partner, double now, double row_due);
     void join_at_once(int ball, double now);
