@@ -21,7 +21,7 @@ constexpr int kSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGXCPU, SIGUSR1,
 
 /// Work has so long to see the request. The promise is half a second; the rest is for the process
 /// to go, which takes a tenth of a second for each gigabyte.
-constexpr timespec kGrace{0, 250'000'000};
+constexpr timespec kGrace{0, 150'000'000};
 
 /// For a lock that a thread holds which is in the middle of an allocation.
 constexpr std::chrono::milliseconds kMostWaiting{20};

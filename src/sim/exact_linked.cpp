@@ -138,6 +138,31 @@ ExactRun::Parting* ExactRun::parting_of(const Contact& contact, double now) {
     return found == partings_.end() ? nullptr : &*found;
 }
 
+/// After steps of ODE gaps are shut that a step does not see; if that lifts balls, their speeds
+/// pay.
+void ExactRun::pay_for_places(const std::vector<int>& island, double now, LinkedIsland& is) const {
+    if (std::none_of(island.begin(), island.end(),
+                     [this](int ball) { return world_.ball(ball).coarse; }))
+        return;
+    double kinetic = 0, before = 0, lifted = 0;
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        const ExactBall& ball = world_.ball(island[b]);
+        const double inertia = ball.inertia_factor * ball.mass * ball.radius * ball.radius;
+        const Velocities v = world_.velocities(island[b], now);
+        const CurvedState& s = is.state[b];
+        before += 0.5 * (ball.mass * v.linear.squaredNorm() + inertia * v.spin.squaredNorm());
+        kinetic += 0.5 * (ball.mass * s.v.squaredNorm() + inertia * s.w.squaredNorm());
+        lifted -= ball.mass * is.system.gravity.dot(s.x - world_.position(island[b], now));
+    }
+    const double excess = kinetic + lifted - before;
+    if (excess <= kBalanced * kinetic) return;
+    const double factor = std::sqrt(std::max(0.0, 1 - excess / kinetic));
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        is.state[b].v *= factor;
+        is.state[b].w *= factor;
+    }
+}
+
 /// The next pieces of the balls of a small island, all of the same length; or some of its contacts
 /// part now. False where it has to be stepped.
 bool ExactRun::integrate(const std::vector<int>& island, double now) {
@@ -155,6 +180,7 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     }
     if (lands) land(is.system, gives_back, is.state);
     if (!choose_modes(is.system, is.state)) return false;
+    pay_for_places(island, now, is);
     bool parted = false;
     LinkedForces forces = linked_forces(is.system, is.state);
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {

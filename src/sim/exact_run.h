@@ -173,6 +173,7 @@ class ExactRun {
     Parting* parting_of(const Contact& contact, double now);
     bool integrate(const std::vector<int>& island, double now);
     LinkedPiece piece_of(int first_ball, double now, LinkedIsland& is, LinkedForces& forces);
+    void pay_for_places(const std::vector<int>& island, double now, LinkedIsland& is) const;
     void begin_pieces(const std::vector<int>& island, double now, const LinkedIsland& is,
                       const LinkedPiece& piece, double rounding_speed);
     bool is_at_rest(const std::vector<int>& island, const LinkedIsland& is,
