@@ -43,8 +43,8 @@ IslandStep::IslandStep(const ExactWorld& world, const Links& links, const std::v
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const BallState& start = results_[i].start = world.state(balls[i], now);
         places_.push_back(start.position);
-        kinetic_energy_ += 0.5 * world.ball(balls[i]).mass * start.velocity.squaredNorm() +
-                           turning_energy(i, start.spin);
+        energy_ += 0.5 * world.ball(balls[i]).mass * start.velocity.squaredNorm() +
+                   turning_energy(i, start.spin);
         for (const Link& link : links.of(balls[i])) {
             const Contact c = world.contact_at(balls[i], link.partner, now);
             if (c.ball != balls[i]) continue;
@@ -228,7 +228,8 @@ void IslandStep::keep_energy_at_start() {
         velocities.push_back({r.start.velocity, r.start.spin});
         places.push_back(r.start.position);
     }
-    if (take_away(energy(velocities, places) - kinetic_energy_, velocities)) set_start(velocities);
+    if (take_away(energy(velocities, places) - energy_, velocities)) set_start(velocities);
+    energy_ = energy(velocities, places);  // less where something has been stopped
 }
 
 void IslandStep::keep_energy_at_end() {
@@ -238,7 +239,7 @@ void IslandStep::keep_energy_at_end() {
             const BallState& start = results_[i].start;
             ends.push_back(start.position + 0.5 * seconds_ * (start.velocity + after_[i].linear));
         }
-        if (!take_away(energy(after_, ends) - kinetic_energy_, after_)) return;
+        if (!take_away(energy(after_, ends) - energy_, after_)) return;
     }
 }
 

@@ -73,8 +73,8 @@ class IslandStep {
     const ExactWorld& world_;
     const std::vector<int>& balls_;
     double seconds_ = kIslandStep;
-    double kinetic_energy_ = 0;  ///< at the start, J
-    std::vector<Vec3> places_;   ///< at the start, before they are corrected
+    double energy_ = 0;         ///< at the start, with a potential of 0 at places_, J
+    std::vector<Vec3> places_;  ///< at the start, before they are corrected
     std::vector<Result> results_;
     std::vector<Velocities> after_;
     std::vector<Contact> contacts_;
