@@ -1,5 +1,3 @@
-#include <cstdio>
-#include <cstdlib>
 #include "motion_checks.h"
 
 #include <fmt/core.h>
@@ -70,9 +68,6 @@ Worst energy_rise(const Scene& scene, const Motion& motion, const std::vector<do
         for (const bool before : {true, false}) {
             const Energies e = energies(scene, states(motion, t, before));
             in_play = std::max(in_play, e.in_play);
-            if (const char* w = std::getenv("EWIN")) { double a=std::atof(w), d=std::atof(std::getenv("EWID")); if (std::abs(t-a)<d) {
-                fprintf(stderr,"%.17g before %d total %.12g;", t, (int)before, e.total);
-                for (std::size_t b=0;b<motion.balls.size();++b){ const auto&tr=motion.balls[b]; auto i=tr.piece_index(before? std::nextafter(t,-1):t); const auto&q=tr.pieces()[i]; if (!before && q.start!=t) continue; auto st=q.at(t); fprintf(stderr," b%zu[x %.12g %.12g %.12g v %.9g %.9g %.9g w %.6g %.6g %.6g]",b,st.position.x(),st.position.y(),st.position.z(),st.velocity.x(),st.velocity.y(),st.velocity.z(),st.spin.x(),st.spin.y(),st.spin.z()); } fprintf(stderr,"\n"); }}
             if (in_play > 0 && least < INFINITY) worst.take((e.total - least) / in_play, t);
             least = std::min(least, e.total);
         }
