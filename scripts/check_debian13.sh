@@ -34,6 +34,8 @@ inside() {
         set -e
         mkdir -p "$0/carom"
         mount -t proc proc "$0/proc"
+        mkdir -p "$0/dev/pts"
+        mount -t devpts devpts "$0/dev/pts"
         mount --bind "$1" "$0/carom"
         mount -o remount,bind,ro "$0/carom"
         exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
