@@ -69,6 +69,11 @@ void Font::draw(Canvas& canvas, const TextRun& run, double x, double y, const In
     cairo_new_path(c);
     for (const TextRun::Place& place : run.glyphs)
         add_outline(c, *place.glyph, x + place.x_px, y, size_px_);
+    // As lines: cairo's releases differ in how they stroke a curve.
+    const std::unique_ptr<cairo_path_t, decltype(&cairo_path_destroy)> lines(
+        cairo_copy_path_flat(c), cairo_path_destroy);
+    cairo_new_path(c);
+    cairo_append_path(c, lines.get());
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
     // A faint wide stroke below a firmer narrow one fades softly into any background.
     for (const auto& [width, alpha] : {std::pair(2.0, 0.35), std::pair(1.2, 0.70)}) {
