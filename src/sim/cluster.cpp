@@ -262,8 +262,7 @@ std::size_t Cluster::rounds_to_end() const {
         heaviest = std::max(heaviest, b.mass);
     }
     const double contacts = static_cast<double>(contacts_.size());
-    const double rounds =
-        kRounds + kRoundsPerContact * contacts * std::sqrt(heaviest / lightest);
+    const double rounds = kRounds + kRoundsPerContact * contacts * std::sqrt(heaviest / lightest);
     return static_cast<std::size_t>(std::min(rounds, kMostRounds));
 }
 

@@ -205,10 +205,10 @@ bool ExactRun::leave_island(int ball, double now) {
                          parting_of(contact, now) == nullptr;
     const double v = velocities.linear.dot(contact.normal);
     // Nothing brings it back.
-    const bool parts = !world_.ball(ball).coarse && pressing_gravity(contact.normal) == 0 &&
-                       landing_of(contact, now) == nullptr &&
-                       v > kStillFraction * velocities.linear.norm() +
-                               world_.ball(ball).rounding_speed;
+    const bool parts =
+        !world_.ball(ball).coarse && pressing_gravity(contact.normal) == 0 &&
+        landing_of(contact, now) == nullptr &&
+        v > kStillFraction * velocities.linear.norm() + world_.ball(ball).rounding_speed;
     if (world_.ball(ball).steps == 0 && !presses && !parts) return false;
     if (parts || (!presses && !link.pressed && v > 0)) {  // lifted off
         if (link.stated != EventKind::kLeave || link.from_start)

@@ -105,9 +105,9 @@ bool ExactRun::in_reach(const Contact& contact) const {
     if (!contact.other.is_surface)
         radius = std::min(radius, world_.ball(contact.other.index).radius);
     if (is_coarse(contact)) return -contact.depth < kLinkGap * radius + world_.place_rounding;
-    return -contact.depth <
-           kFineGap * radius + world_.touch_tolerance(contact.point, contact.point, radius) +
-               world_.place_rounding;
+    return -contact.depth < kFineGap * radius +
+                                world_.touch_tolerance(contact.point, contact.point, radius) +
+                                world_.place_rounding;
 }
 
 /// Forms the links of these balls anew. Returns them with all that hangs on them, sorted.
