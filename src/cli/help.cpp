@@ -28,19 +28,19 @@ std::size_t help_width() {
     return columns > 0 ? std::max(kLeast, static_cast<std::size_t>(columns)) : kUsual;
 }
 
-/// The placeholder alone: CLI11 adds what its checks have to say.
-std::string placeholder(const CLI::Option& option) {
+/// The name of its value alone: CLI11 adds what its checks have to say.
+std::string value_name(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     return type.substr(0, type.find(':'));
 }
 
 std::string option_name(const CLI::Option& option) {
-    if (option.get_positional()) return placeholder(option);
+    if (option.get_positional()) return value_name(option);
     std::string name = option.get_snames().empty() ? "    " : "";
     for (const std::string& s : option.get_snames()) name += "-" + s + ", ";
     for (const std::string& l : option.get_lnames()) name += "--" + l + ", ";
     name.resize(name.size() - 2);
-    const std::string type = placeholder(option);
+    const std::string type = value_name(option);
     return type.empty() ? name : name + " " + type;
 }
 
@@ -82,12 +82,12 @@ class Help final : public CLI::FormatterBase {
              above = above->get_parent())
             name = above->get_name() + " " + name;
         for (const CLI::Option* option : app.get_options()) {
-            if (option->get_positional()) name += " " + placeholder(*option);
+            if (option->get_positional()) name += " " + value_name(*option);
             if (!option->get_positional() && option->get_required()) {
                 const std::string flag = option->get_snames().empty()
                                              ? "--" + option->get_lnames().front()
                                              : "-" + option->get_snames().front();
-                name += fmt::format(" {} {}", flag, placeholder(*option));
+                name += fmt::format(" {} {}", flag, value_name(*option));
             }
         }
         return name + (app.get_subcommands({}).empty() ? " [OPTIONS]" : " COMMAND ...");

@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "render/typeface.h"
 

@@ -37,10 +37,6 @@ constexpr std::int64_t kEventsPerLook = 1024;
 /// Counts events at one instant.
 class Standstill {
   public:
-    bool ends() {
-        *this = {};
-        return false;
-    }
     /// Whether the next event is one too many; a step of a crowd, which gets on by itself, is none.
     bool stuck(const Prediction& next) {
         of_one_ball_ = next.ball == ball_ ? of_one_ball_ + 1 : 0;
@@ -134,7 +130,8 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
             fetch(due_.first().ball);  // most likely the next one
             if (!current(next)) continue;
         }
-        const bool stuck = next.time > last ? standstill.ends() : standstill.stuck(next);
+        if (next.time > last) standstill = {};
+        const bool stuck = next.time <= last && standstill.stuck(next);
         last = std::max(last, next.time);
 
         if (step) {
