@@ -9,8 +9,8 @@
 
 #include "core/failure.h"
 #include "scene/virtual_body.h"
-#include "sim/recorder.h"
-#include "sim/restitution.h"
+#include "sim/contact/restitution.h"
+#include "sim/record/recorder.h"
 
 namespace carom::bench {
 

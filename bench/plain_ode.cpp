@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/check.h"
-#include "sim/ode_world.h"
-#include "sim/restitution.h"
+#include "sim/contact/restitution.h"
+#include "sim/fixed/ode_world.h"
 
 namespace carom::bench {
 

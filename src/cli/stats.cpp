@@ -11,7 +11,7 @@
 #include "media/output_file.h"
 #include "media/versions.h"
 #include "render/versions.h"
-#include "sim/tunnelling.h"
+#include "sim/record/tunnelling.h"
 #include "sim/versions.h"
 
 namespace carom {

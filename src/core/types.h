@@ -9,6 +9,7 @@ namespace carom {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-using Quat = Eigen::Quaterniond;  ///< unit; rotates body coordinates into world coordinates
+using Quat = Eigen::Quaterniond;   ///< unit; rotates body coordinates into world coordinates
+using Box3 = Eigen::AlignedBox3d;  ///< sides along the axes
 
 }  // namespace carom

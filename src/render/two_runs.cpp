@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <type_traits>
 
 #include "core/failure.h"
 
@@ -13,32 +12,11 @@ namespace carom {
 
 namespace {
 
-bool same(const PlaneShape& a, const PlaneShape& b) {
-    return a.normal == b.normal && a.offset_m == b.offset_m;
-}
-bool same(const BoxShape& a, const BoxShape& b) {
-    return a.center == b.center && a.size == b.size &&
-           a.orientation.coeffs() == b.orientation.coeffs();
-}
-bool same(const SphereShape& a, const SphereShape& b) {
-    return a.center == b.center && a.radius == b.radius;
-}
-bool same(const CapsuleShape& a, const CapsuleShape& b) {
-    return a.from == b.from && a.to == b.to && a.radius == b.radius;
-}
-
-bool same_shape(const SurfaceShape& a, const SurfaceShape& b) {
-    if (a.index() != b.index()) return false;
-    return std::visit(
-        [&](const auto& shape) { return same(shape, std::get<std::decay_t<decltype(shape)>>(b)); },
-        a);
-}
-
 /// The name of a surface that only one of the scenes has, or has there; "" if they are alike.
 std::string odd_surface(const Scene& a, const Scene& b) {
     const std::size_t common = std::min(a.surfaces.size(), b.surfaces.size());
     for (std::size_t i = 0; i < common; ++i)
-        if (!same_shape(a.surfaces[i].shape, b.surfaces[i].shape)) return b.surfaces[i].name;
+        if (a.surfaces[i].shape != b.surfaces[i].shape) return b.surfaces[i].name;
     if (a.surfaces.size() > common) return a.surfaces[common].name;
     return b.surfaces.size() > common ? b.surfaces[common].name : "";
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "sim/restitution.h"
+#include "sim/contact/restitution.h"
 
 namespace carom {
 

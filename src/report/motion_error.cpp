@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "geometry/nearest.h"
 #include "scene/overlap.h"
 
 namespace carom {

@@ -10,7 +10,7 @@
 #include "report/paper_data.h"
 #include "report/paper_tables.h"
 #include "scene/catalogue.h"
-#include "sim/restitution.h"
+#include "sim/contact/restitution.h"
 
 namespace carom {
 

@@ -8,7 +8,7 @@
 
 #include "report/paper_data.h"
 #include "scene/catalogue.h"
-#include "sim/restitution.h"
+#include "sim/contact/restitution.h"
 
 namespace carom {
 

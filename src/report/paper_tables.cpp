@@ -6,7 +6,7 @@
 #include "report/paper_data.h"
 #include "scene/catalogue.h"
 #include "scene/virtual_body.h"
-#include "sim/restitution.h"
+#include "sim/contact/restitution.h"
 
 namespace carom {
 

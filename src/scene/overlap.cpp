@@ -6,64 +6,51 @@
 #include <cstdint>
 #include <tuple>
 
+#include "geometry/bounds.h"
+#include "geometry/nearest.h"
+
 namespace carom {
 
 namespace {
 
-double distance_to(const PlaneShape& plane, const Vec3& p) {
-    return plane.normal.dot(p) - plane.offset_m;
-}
-
-double distance_to(const SphereShape& sphere, const Vec3& p) {
-    return (p - sphere.center).norm() - sphere.radius;
-}
-
-double distance_to(const CapsuleShape& capsule, const Vec3& p) {
-    const Vec3 axis = capsule.to - capsule.from;
-    const double t = std::clamp((p - capsule.from).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
-    return (p - capsule.from - t * axis).norm() - capsule.radius;
-}
-
-double distance_to(const BoxShape& box, const Vec3& p) {
-    const Vec3 local = box.orientation.conjugate() * (p - box.center);
-    const Vec3 beyond = local.cwiseAbs() - box.size / 2;
-    return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.0);
-}
-
-/// Half the extent of a shape along x; infinite for planes.
+/// From where to where a shape extends along x; without end for planes.
 std::array<double, 2> extent_x(const SurfaceShape& shape) {
-    if (const auto* sphere = std::get_if<SphereShape>(&shape))
-        return {sphere->center.x() - sphere->radius, sphere->center.x() + sphere->radius};
-    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
-        return {std::min(capsule->from.x(), capsule->to.x()) - capsule->radius,
-                std::max(capsule->from.x(), capsule->to.x()) + capsule->radius};
-    if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        const double half = box->size.norm() / 2;
-        return {box->center.x() - half, box->center.x() + half};
+    if (is_unbounded(shape)) {
+        const double infinity = std::numeric_limits<double>::infinity();
+        return {-infinity, infinity};
     }
-    const double infinity = std::numeric_limits<double>::infinity();
-    return {-infinity, infinity};
+    const Box3 bounds = bounds_of(shape);
+    return {bounds.min().x(), bounds.max().x()};
 }
 
 double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
-/// The largest number that says where a surface is, near to a point.
-double numbers_of(const SurfaceShape& shape, const Vec3& point) {
-    if (const auto* sphere = std::get_if<SphereShape>(&shape))
-        return largest(point) + largest(sphere->center) + sphere->radius;
-    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
-        return largest(point) + largest(capsule->from) + largest(capsule->to) + capsule->radius;
-    if (const auto* box = std::get_if<BoxShape>(&shape))
-        return largest(point) + largest(box->center) + largest(box->size);
-    return largest(point) + std::abs(std::get<PlaneShape>(shape).offset_m);
+/// The largest number that says where a surface is.
+double numbers_of(const PlaneShape& plane) { return std::abs(plane.offset_m); }
+double numbers_of(const SphereShape& sphere) { return largest(sphere.center) + sphere.radius; }
+double numbers_of(const BoxShape& box) { return largest(box.center) + largest(box.size); }
+double numbers_of(const CapsuleShape& capsule) {
+    return largest(capsule.from) + largest(capsule.to) + capsule.radius;
 }
 
-double size_of_other(const SurfaceShape& shape, double ball_radius) {
-    if (const auto* sphere = std::get_if<SphereShape>(&shape))
-        return std::min(sphere->radius, ball_radius);
-    if (const auto* capsule = std::get_if<CapsuleShape>(&shape))
-        return std::min(capsule->radius, ball_radius);
-    return ball_radius;
+/// The radius of what a ball meets, at most its own: what is flat has none.
+double size_of_other(const PlaneShape&, double ball_radius) { return ball_radius; }
+double size_of_other(const BoxShape&, double ball_radius) { return ball_radius; }
+double size_of_other(const SphereShape& sphere, double ball_radius) {
+    return std::min(sphere.radius, ball_radius);
+}
+double size_of_other(const CapsuleShape& capsule, double ball_radius) {
+    return std::min(capsule.radius, ball_radius);
+}
+
+/// How deep a ball may be in a shape and count as touching it, m.
+double touching_depth(const SurfaceShape& shape, const Ball& ball) {
+    return std::visit(
+        [&](const auto& s) {
+            return kTouchingDepth * size_of_other(s, ball.radius) +
+                   kPlaceRounding * (largest(ball.position) + numbers_of(s));
+        },
+        shape);
 }
 
 /// A grid with one level per power of two, so that small balls among large ones stay cheap. A ball
@@ -167,10 +154,9 @@ class BallsByX {
             const Ball& one = scene_.balls[static_cast<std::size_t>(*ball)];
             const double distance = signed_distance(shape, one.position);
             const double depth = one.radius - distance;
-            const double rounding = kPlaceRounding * numbers_of(shape, one.position);
-            if (depth <= kTouchingDepth * size_of_other(shape, one.radius) + rounding) continue;
-            const bool plane = std::holds_alternative<PlaneShape>(shape);
-            found.push_back({*ball, surface, depth, plane ? std::max(-distance, 0.0) : 0.0});
+            if (depth <= touching_depth(shape, one)) continue;
+            const double behind = is_unbounded(shape) ? std::max(-distance, 0.0) : 0.0;
+            found.push_back({*ball, surface, depth, behind});
             if (found.size() >= kMostOverlaps) return;
         }
     }
@@ -184,10 +170,6 @@ class BallsByX {
 };
 
 }  // namespace
-
-double signed_distance(const SurfaceShape& shape, const Vec3& point) {
-    return std::visit([&](const auto& s) { return distance_to(s, point); }, shape);
-}
 
 OverlapList find_overlaps(const Scene& scene, const std::vector<bool>& balls,
                           const std::vector<bool>& surfaces) {

@@ -39,7 +39,4 @@ inline constexpr std::size_t kMostOverlaps = 10'000;
 OverlapList find_overlaps(const Scene& scene, const std::vector<bool>& balls,
                           const std::vector<bool>& surfaces);
 
-/// Distance from a point to the surface of a shape, m; negative inside, and behind a plane.
-double signed_distance(const SurfaceShape& shape, const Vec3& point);
-
 }  // namespace carom

@@ -12,6 +12,7 @@
 
 #include "core/diagnostics.h"
 #include "core/types.h"
+#include "geometry/shape.h"
 
 namespace carom {
 
@@ -66,26 +67,6 @@ struct Look {
     double tile_m = 0.5;    ///< edge of a square, width of a plank, m
     double reflection = 0;  ///< of planes and boxes' tops: 0 dull ... 1 as a pane of glass
 };
-
-struct PlaneShape {
-    Vec3 normal = Vec3::UnitZ();  ///< unit
-    double offset_m = 0;          ///< points p with normal . p = offset
-};
-struct BoxShape {
-    Vec3 center = Vec3::Zero();
-    Vec3 size = Vec3::Ones();             ///< full edges, m
-    Quat orientation = Quat::Identity();  ///< world from box
-};
-struct SphereShape {
-    Vec3 center = Vec3::Zero();
-    double radius = 1;
-};
-struct CapsuleShape {
-    Vec3 from = Vec3::Zero();
-    Vec3 to = Vec3::UnitX();
-    double radius = 0.1;
-};
-using SurfaceShape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape>;
 
 /// A static body.
 struct Surface {

@@ -5,7 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "sim/surface_tree.h"
+#include "geometry/bounds.h"
+#include "geometry/translation.h"
 
 namespace carom {
 
@@ -18,36 +19,6 @@ constexpr double kFar = 32;
 /// Roundings of the coordinates that make a gap: those of two places, and of a plane's normal and
 /// offset, which were divided by the normal's length.
 constexpr double kRoundings = 8 * std::numeric_limits<double>::epsilon();
-
-/// offset - normal . origin with one rounding's error: both are large, and their difference is not
-/// (T. Ogita, S. M. Rump, S. Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26, 2005,
-/// algorithm Dot2).
-double offset_from(const PlaneShape& plane, const Vec3& origin) {
-    double sum = plane.offset_m, lost = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double product = -plane.normal[i] * origin[i];
-        const double next = sum + product;
-        const double part = next - sum;
-        lost += ((sum - (next - part)) + (product - part)) +
-                std::fma(-plane.normal[i], origin[i], -product);
-        sum = next;
-    }
-    return sum + lost;
-}
-
-SurfaceShape seen_from(SurfaceShape shape, const Vec3& origin) {
-    if (auto* plane = std::get_if<PlaneShape>(&shape)) {
-        plane->offset_m = offset_from(*plane, origin);
-    } else if (auto* box = std::get_if<BoxShape>(&shape)) {
-        box->center -= origin;
-    } else if (auto* sphere = std::get_if<SphereShape>(&shape)) {
-        sphere->center -= origin;
-    } else if (auto* capsule = std::get_if<CapsuleShape>(&shape)) {
-        capsule->from -= origin;
-        capsule->to -= origin;
-    }
-    return shape;
-}
 
 }  // namespace
 
@@ -74,7 +45,7 @@ Vec3 nearby_origin(const Scene& scene) {
 Scene seen_from(const Scene& scene, const Vec3& origin) {
     Scene seen = scene;
     for (Ball& b : seen.balls) b.position -= origin;
-    for (Surface& s : seen.surfaces) s.shape = seen_from(std::move(s.shape), origin);
+    for (Surface& s : seen.surfaces) s.shape = seen_from(s.shape, origin);
     return seen;
 }
 

@@ -1,7 +1,7 @@
 #include "sim/simulate.h"
 
-#include "sim/exact.h"
-#include "sim/fixed.h"
+#include "sim/exact/exact.h"
+#include "sim/fixed/fixed.h"
 #include "sim/nearby_origin.h"
 
 namespace carom {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "../sim/exact_scenes.h"
-#include "sim/exact.h"
+#include "sim/exact/exact.h"
 
 namespace {
 

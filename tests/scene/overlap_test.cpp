@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "geometry/nearest.h"
 #include "scene_testing.h"
 
 namespace carom {

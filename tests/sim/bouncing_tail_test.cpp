@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "curved_scenes.h"
-#include "sim/contact.h"
+#include "sim/contact/contact.h"
 
 namespace carom::testing {
 namespace {

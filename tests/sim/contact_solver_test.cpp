@@ -1,11 +1,12 @@
 // Islands, CFM, friction rows, what is asked of ODE and what it says.
-#include "sim/contact_solver.h"
+#include "sim/fixed/contact_solver.h"
 
 #include <gtest/gtest.h>
 
 #include "scenes.h"
-#include "sim/contact_finder.h"
-#include "sim/ode_messages.h"
+#include "sim/fixed/contact_finder.h"
+#include "sim/solve/contact_joint.h"
+#include "sim/solve/ode_messages.h"
 
 namespace carom {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "exact_scenes.h"
-#include "sim/impact_solver.h"
+#include "sim/solve/impact_solver.h"
 
 namespace carom::testing {
 namespace {

@@ -1,5 +1,5 @@
 // Events of whole scenes: their kinds, their order, when everything rests; and the peaks.
-#include "sim/event_log.h"
+#include "sim/record/event_log.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

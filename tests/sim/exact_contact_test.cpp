@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "exact_scenes.h"
-#include "sim/flat_contact.h"
+#include "sim/law/flat_contact.h"
 
 namespace carom::testing {
 namespace {

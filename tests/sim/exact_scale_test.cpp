@@ -8,8 +8,8 @@
 #include <set>
 
 #include "exact_scenes.h"
-#include "sim/exact.h"
-#include "sim/neighbour_grid.h"
+#include "sim/collide/neighbour_grid.h"
+#include "sim/exact/exact.h"
 
 namespace carom::testing {
 namespace {

@@ -1,13 +1,13 @@
 // The solver of impacts against Newton and Coulomb in closed form: a single contact, ODE's contact
 // solver, and the sweeps that stand in for it.
-#include "sim/impact_solver.h"
+#include "sim/solve/impact_solver.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sim/impact_sweeps.h"
+#include "sim/solve/impact_sweeps.h"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 // Crossings of polynomials, against roots that they are built from.
-#include "sim/polynomial.h"
+#include "sim/math/polynomial.h"
 
 #include <gtest/gtest.h>
 

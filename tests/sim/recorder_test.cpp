@@ -1,11 +1,11 @@
 // Steps become pieces: few of them, and they say what the steps said.
-#include "sim/recorder.h"
+#include "sim/record/recorder.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "scenes.h"
-#include "sim/ode_world.h"
+#include "sim/fixed/ode_world.h"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 // The paper's Eq. 6, 7, 10, and the pair rules.
-#include "sim/restitution.h"
+#include "sim/contact/restitution.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Many surfaces: the tree of their boxes changes the cost, never the motion.
-#include "sim/surface_tree.h"
+#include "sim/collide/surface_tree.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 #include <random>
 
 #include "exact_scenes.h"
-#include "sim/exact.h"
+#include "geometry/nearest.h"
+#include "sim/exact/exact.h"
 
 namespace carom::testing {
 namespace {
@@ -77,7 +78,7 @@ TEST(SurfaceTree, FindsEverySurfaceThatAPathComesNearTo) {
             bool near = false;
             for (int k = 0; k <= 500 && !near; ++k) {
                 const Vec3 x = path.at(seconds * k / 500);
-                near = nearest_on_surface(x, reach, scene.surfaces[std::size_t(s)].shape).gap <= 0;
+                near = nearest_on(scene.surfaces[std::size_t(s)].shape, x, reach).gap <= 0;
             }
             met += near ? 1 : 0;
             const bool listed = std::binary_search(found.begin(), found.end(), s);

@@ -1,5 +1,5 @@
 // Times of impact against a bisection on the distance, for every kind of surface.
-#include "sim/time_of_impact.h"
+#include "sim/collide/time_of_impact.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,8 @@
 #include <optional>
 #include <random>
 
-#include "sim/curved_impact.h"
+#include "geometry/nearest.h"
+#include "sim/collide/time_of_impact_high_degree.h"
 
 namespace carom {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 /// Where the gap first turns negative, by small steps and bisection. Empty: nowhere.
 std::optional<double> reference(const Path& path, double radius, const SurfaceShape& shape,
                                 double horizon) {
-    const auto gap = [&](double s) { return nearest_on_surface(path.at(s), radius, shape).gap; };
+    const auto gap = [&](double s) { return nearest_on(shape, path.at(s), radius).gap; };
     constexpr int kSteps = 4000;
     for (int i = 1; i <= kSteps; ++i) {
         double high = horizon * i / kSteps;
@@ -51,7 +52,7 @@ Tally shoot(const SurfaceShape& shape, const Vec3& center, double size, unsigned
         path.velocity = (1 + 3 * std::abs(unit(random))) * (aim - path.position).normalized();
         if (trial % 2 == 1) path.acceleration = 3 * Vec3(unit(random), unit(random), unit(random));
         const double horizon = 6;
-        if (nearest_on_surface(path.position, radius, shape).gap <= 0) continue;
+        if (nearest_on(shape, path.position, radius).gap <= 0) continue;
         const auto expected = reference(path, radius, shape, horizon);
         const TimeOfImpact found = impact_with_surface(path, radius, shape, false, horizon);
         EXPECT_NE(found.state, ImpactState::kCapped);
@@ -59,17 +60,17 @@ Tally shoot(const SurfaceShape& shape, const Vec3& center, double size, unsigned
         if (!expected) {
             // The steps may have jumped over a graze; then the gap is 0 and shrinking there.
             if (found.state == ImpactState::kHit) {
-                EXPECT_NEAR(nearest_on_surface(path.at(found.s), radius, shape).gap, 0, 1e-12);
+                EXPECT_NEAR(nearest_on(shape, path.at(found.s), radius).gap, 0, 1e-12);
             }
             ++tally.misses;
             continue;
         }
         ++tally.hits;
         EXPECT_EQ(found.state, ImpactState::kHit) << "trial " << trial << " at " << *expected;
-        const Nearest met = nearest_on_surface(path.at(*expected), radius, shape);
+        const Nearest met = nearest_on(shape, path.at(*expected), radius);
         const Vec3 v = path.velocity + *expected * path.acceleration;
         if (found.s < *expected - 1e-6) {  // a graze that the steps jumped over
-            EXPECT_NEAR(nearest_on_surface(path.at(found.s), radius, shape).gap, 0, 1e-12);
+            EXPECT_NEAR(nearest_on(shape, path.at(found.s), radius).gap, 0, 1e-12);
             continue;
         }
         if (-met.normal.dot(v) < 0.05 * v.norm()) continue;
@@ -226,16 +227,16 @@ TEST(TimeOfImpact, PressedAndReleased) {
 
 TEST(TimeOfImpact, NearestPoints) {
     const BoxShape box{Vec3::Zero(), Vec3(2, 2, 2), Quat::Identity()};
-    const Nearest corner = nearest_on_surface(Vec3(2, 2, 2), 0.5, box);
+    const Nearest corner = nearest_on(box, Vec3(2, 2, 2), 0.5);
     EXPECT_NEAR(corner.gap, std::sqrt(3.0) - 0.5, 1e-15);
     EXPECT_LE((corner.normal - Vec3::Ones().normalized()).norm(), 1e-15);
     EXPECT_EQ(corner.point, Vec3::Ones());
-    const Nearest inside = nearest_on_surface(Vec3(0.9, 0, 0), 0.5, box);
+    const Nearest inside = nearest_on(box, Vec3(0.9, 0, 0), 0.5);
     EXPECT_NEAR(inside.gap, -0.6, 1e-15);
     EXPECT_EQ(inside.normal, Vec3::UnitX());
     const CapsuleShape rail{Vec3::Zero(), Vec3(1, 0, 0), 0.1};
-    EXPECT_NEAR(nearest_on_surface(Vec3(0.5, 0, 1), 0.2, rail).gap, 0.7, 1e-15);
-    EXPECT_NEAR(nearest_on_surface(Vec3(-3, 0, 4), 0.2, rail).gap, 4.7, 1e-15);
+    EXPECT_NEAR(nearest_on(rail, Vec3(0.5, 0, 1), 0.2).gap, 0.7, 1e-15);
+    EXPECT_NEAR(nearest_on(rail, Vec3(-3, 0, 4), 0.2).gap, 4.7, 1e-15);
 }
 
 }  // namespace

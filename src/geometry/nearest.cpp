@@ -1,0 +1,66 @@
+#include "geometry/nearest.h"
+
+#include <algorithm>
+
+namespace carom {
+
+namespace {
+
+Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    return a + std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) * d;
+}
+
+/// Of all points within `round` of a core, of which `core` is the nearest to the centre.
+Nearest nearest_around(const Vec3& core, double round, const Vec3& center, double radius) {
+    const Vec3 d = center - core;
+    const double distance = d.norm();
+    const Vec3 normal = distance > 0 ? Vec3(d / distance) : Vec3::UnitZ();
+    return {distance - radius - round, normal, core + round * normal};
+}
+
+}  // namespace
+
+Nearest nearest_on(const PlaneShape& plane, const Vec3& center, double radius) {
+    const double height = plane.normal.dot(center) - plane.offset_m;
+    return {height - radius, plane.normal, center - height * plane.normal};
+}
+
+Nearest nearest_on(const BoxShape& box, const Vec3& center, double radius) {
+    const Mat3 world_from_box = box.orientation.toRotationMatrix();
+    const Vec3 half = 0.5 * box.size;
+    const Vec3 local = world_from_box.transpose() * (center - box.center);
+    Vec3 nearest = local.cwiseMax(-half).cwiseMin(half);
+    Vec3 away = local - nearest;
+    double distance = away.norm();
+    if (distance == 0) {  // inside: out through the nearest face
+        int axis = 0;
+        (half - local.cwiseAbs()).minCoeff(&axis);
+        const double side = local[axis] < 0 ? -1 : 1;
+        distance = std::abs(local[axis]) - half[axis];
+        away = side * Vec3::Unit(axis);
+        nearest[axis] = side * half[axis];
+    } else {
+        away /= distance;
+    }
+    return {distance - radius, world_from_box * away, box.center + world_from_box * nearest};
+}
+
+Nearest nearest_on(const SphereShape& sphere, const Vec3& center, double radius) {
+    return nearest_around(sphere.center, sphere.radius, center, radius);
+}
+
+Nearest nearest_on(const CapsuleShape& capsule, const Vec3& center, double radius) {
+    const Vec3 core = nearest_on_segment(center, capsule.from, capsule.to);
+    return nearest_around(core, capsule.radius, center, radius);
+}
+
+Nearest nearest_on(const SurfaceShape& shape, const Vec3& center, double radius) {
+    return std::visit([&](const auto& s) { return nearest_on(s, center, radius); }, shape);
+}
+
+double signed_distance(const SurfaceShape& shape, const Vec3& point) {
+    return nearest_on(shape, point, 0).gap;
+}
+
+}  // namespace carom

@@ -1,0 +1,46 @@
+#include "geometry/translation.h"
+
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+/// offset - normal . origin with one rounding's error (T. Ogita, S. M. Rump, S. Oishi, "Accurate
+/// sum and dot product", SIAM J. Sci. Comput. 26, 2005, algorithm Dot2).
+double offset_from(const PlaneShape& plane, const Vec3& origin) {
+    double sum = plane.offset_m, lost = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double product = -plane.normal[i] * origin[i];
+        const double next = sum + product;
+        const double part = next - sum;
+        lost += ((sum - (next - part)) + (product - part)) +
+                std::fma(-plane.normal[i], origin[i], -product);
+        sum = next;
+    }
+    return sum + lost;
+}
+
+SurfaceShape moved(const PlaneShape& plane, const Vec3& origin) {
+    return PlaneShape{plane.normal, offset_from(plane, origin)};
+}
+
+SurfaceShape moved(const BoxShape& box, const Vec3& origin) {
+    return BoxShape{box.center - origin, box.size, box.orientation};
+}
+
+SurfaceShape moved(const SphereShape& sphere, const Vec3& origin) {
+    return SphereShape{sphere.center - origin, sphere.radius};
+}
+
+SurfaceShape moved(const CapsuleShape& capsule, const Vec3& origin) {
+    return CapsuleShape{capsule.from - origin, capsule.to - origin, capsule.radius};
+}
+
+}  // namespace
+
+SurfaceShape seen_from(const SurfaceShape& shape, const Vec3& origin) {
+    return std::visit([&](const auto& s) { return moved(s, origin); }, shape);
+}
+
+}  // namespace carom

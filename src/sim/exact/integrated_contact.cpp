@@ -1,0 +1,231 @@
+// One ball on one contact without a closed form: its phases, each integrated piece by piece.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/exact/run.h"
+#include "sim/world/seams.h"
+
+namespace carom {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Gravity along the surface counts as none below this fraction: a few roundings.
+constexpr double kBalanced = 1e-14;
+
+/// When so many phases have ended at once at an instant, the next one has to go on.
+constexpr int kMostAtOnce = 4;
+
+/// When so many have, it is given up on.
+constexpr int kMostInVain = 40;
+
+/// A contact that is given up on is stepped for so long at first [s]: far longer than a stiff end
+/// of a slip takes.
+constexpr double kFirstStepped = 1e-3;
+
+EventKind kind_of(CurvedMode mode) {
+    return mode == CurvedMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
+}
+
+bool is_plane(const CurvedContact& contact) { return contact.across.trace() < 1.5; }
+
+}  // namespace
+
+/// A single lasting contact with a surface goes on, in closed form if there is one.
+void ExactRun::stay(int ball, double now, const Contact& contact, const Velocities& velocities,
+                    double tail, bool at_start) {
+    const Vec3 v = tangential_part(velocities.linear, contact.normal);
+    const CurvedContact feature =
+        curved_contact(world_.surface(contact.other.index).shape, world_.position(ball, now), v,
+                       world_.ball(ball).radius, world_.scene.simulation.gravity);
+    // At the border of a face the motion says whether it is still on it.
+    if (is_plane(feature) && can_hold(ball, now, contact, velocities))
+        hold(ball, now, contact, velocities, tail, at_start);
+    else
+        follow(ball, now, contact, velocities, tail, at_start);
+}
+
+/// Where the feature that holds the ball ends, another surface that touches it may go on: then
+/// nothing happens to the ball.
+bool ExactRun::go_over_seam(int ball, double now, const Velocities& velocities) {
+    const Contact held = world_.contact_at(ball, {true, world_.ball(ball).surface}, now);
+    const std::optional<SurfaceContact> next =
+        goes_on_with(world_, held, world_.position(ball, now), velocities);
+    if (!next) return false;
+    world_.ball(ball).surface = next->contact.other.index;
+    if (is_plane(next->feature) && can_hold(ball, now, next->contact, velocities))
+        hold(ball, now, next->contact, velocities, 0, false);
+    else
+        follow_feature(ball, now, next->contact, next->feature, velocities, 0, false);
+    return true;
+}
+
+/// The same, integrated.
+void ExactRun::follow(int ball, double now, const Contact& contact, const Velocities& velocities,
+                      double tail, bool at_start) {
+    const CurvedContact feature =
+        curved_contact(world_.surface(contact.other.index).shape, world_.position(ball, now),
+                       tangential_part(velocities.linear, contact.normal), world_.ball(ball).radius,
+                       world_.scene.simulation.gravity);
+    follow_feature(ball, now, contact, feature, velocities, tail, at_start);
+}
+
+void ExactRun::follow_feature(int ball, double now, const Contact& contact,
+                              const CurvedContact& feature, const Velocities& velocities,
+                              double tail, bool at_start) {
+    const ExactBall& body = world_.ball(ball);
+    const Vec3& gravity = world_.scene.simulation.gravity;
+    CurvedPhase& phase = curved_[ball];
+    phase.state = {world_.position(ball, now), velocities.linear, velocities.spin};
+    phase.contact = feature;
+    add_borders_of_others(world_, contact, phase.state, phase.contact);
+    phase.contact.inertia_factor = body.inertia_factor;
+    phase.contact.friction = contact.friction;
+    phase.next_seconds = 0;
+    project(phase.contact, CurvedMode::kSmooth, phase.state);
+    const CurvedForces forces = choose_mode(phase, slip_tolerance(ball, now, velocities));
+    if (!(forces.push > least_push(phase.contact, phase.state.x))) {
+        lift_off(ball, now, contact.other, forces.normal);
+        return;
+    }
+    const bool still = phase.state.v.isZero(0) && phase.mode != CurvedMode::kSliding;
+    Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
+    const bool rests = still && pull.norm() <= kBalanced * gravity.norm();
+    begin_contact(ball, now, {true, contact.other.index}, forces.normal,
+                  rests ? EventKind::kRest : kind_of(phase.mode), tail, at_start);
+    if (!rests) {
+        advance(ball, now);
+        return;
+    }
+    BallState at = world_.state(ball, now);
+    at.position = phase.state.x;
+    at.velocity.setZero();
+    at.spin = phase.state.w;
+    world_.ball(ball).phase_end = kInfinity;
+    begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+}
+
+/// Whether it slides or rolls, and the forces then.
+CurvedForces ExactRun::choose_mode(CurvedPhase& phase, double tolerance) const {
+    const auto forces = [&phase](CurvedMode mode) {
+        phase.mode = mode;
+        return curved_forces(phase.contact, mode, phase.state);
+    };
+    if (phase.contact.friction == 0) return forces(CurvedMode::kSmooth);
+    const CurvedForces sliding = forces(CurvedMode::kSliding);
+    if (sliding.slip.norm() > tolerance) return sliding;
+    project(phase.contact, CurvedMode::kRolling, phase.state);
+    const CurvedForces rolling = forces(CurvedMode::kRolling);
+    return grip_left(phase.contact, rolling) >= 0 ? rolling : forces(CurvedMode::kIncipient);
+}
+
+void ExactRun::lift_off(int ball, double now, const Partner& surface, const Vec3& normal) {
+    ExactBall& b = world_.ball(ball);
+    const CurvedState& s = curved_[ball].state;
+    put_at(ball, now, s.x);
+    if (b.surface >= 0) {
+        b.normal = normal;
+        row(now, EventKind::kLeave, ball);
+    }
+    note_parting(world_.contact_at(ball, surface, now), now);
+    fly(ball, now, {s.v, s.w});
+}
+
+/// The next piece of the ball's phase.
+void ExactRun::advance(int ball, double now) {
+    CurvedPhase& phase = curved_[ball];
+    if (phase.last_begin != now) phase.at_once = 0;
+    phase.last_begin = now;
+    const CurvedPiece piece = next_piece(phase.contact, phase.mode, phase.state, now,
+                                         phase.next_seconds, phase.at_once >= kMostAtOnce);
+    phase.end = piece.end;
+    phase.next_seconds = piece.next_seconds;
+    ExactBall& b = world_.ball(ball);
+    if (!(piece.seconds > 0)) {
+        phase.state = piece.end_state;
+        b.phase_end = now;
+        if (piece.end == CurvedEnd::kGivenUp || ++phase.at_once > kMostInVain)
+            step_instead(ball, now);
+        else
+            end_curved(ball, now);
+        return;
+    }
+    BallState at = world_.state(ball, now);
+    at.position = phase.state.x;
+    at.velocity = phase.state.v;
+    at.spin = phase.state.w;
+    phase.state = piece.end_state;
+    b.leaves_at_end = false;
+    b.phase_end = now + piece.seconds;
+    begin_piece(ball, now, at, piece.acceleration, piece.spin_rate, OptionalCurve(piece.curve));
+}
+
+/// The last resort where a contact cannot be integrated: ODE steps it for a while.
+void ExactRun::step_instead(int ball, double now) {
+    CurvedPhase& phase = curved_[ball];
+    phase.stepped_seconds = std::max(2 * phase.stepped_seconds, kFirstStepped);
+    phase.stepped_until = now + phase.stepped_seconds;
+    phase.at_once = 0;
+    ++report_.given_up;
+    put_at(ball, now, phase.state.x);
+    join(ball, now, {phase.state.v, phase.state.w});
+}
+
+/// A piece, or the whole phase, ends.
+void ExactRun::end_curved(int ball, double now) {
+    CurvedPhase& phase = curved_[ball];
+    put_at(ball, now, phase.state.x);
+    ExactBall& b = world_.ball(ball);
+    b.normal = phase.contact.normal_at(phase.state.x);
+    const Partner surface{true, b.surface};
+    switch (phase.end) {
+        case CurvedEnd::kNone:
+        case CurvedEnd::kGivenUp:  // advance() has seen to that
+            break;
+        case CurvedEnd::kLiftOff:
+            lift_off(ball, now, surface, b.normal);
+            return;
+        case CurvedEnd::kSlipEnds:
+            project(phase.contact, CurvedMode::kRolling, phase.state);
+            [[fallthrough]];
+        case CurvedEnd::kFeature: {
+            const Velocities velocities{phase.state.v, phase.state.w};
+            if (phase.end == CurvedEnd::kFeature && go_over_seam(ball, now, velocities)) return;
+            const Contact contact = world_.contact_at(ball, surface, now);
+            if (phase.end == CurvedEnd::kFeature && is_plane(phase.contact))
+                follow(ball, now, contact, velocities, 0, false);
+            else
+                stay(ball, now, contact, velocities, 0, false);
+            return;
+        }
+        case CurvedEnd::kSlipGrows:
+            phase.mode = CurvedMode::kSliding;
+            break;
+        case CurvedEnd::kGripEnds:
+            phase.mode = CurvedMode::kIncipient;
+            begin_contact(ball, now, surface, b.normal, EventKind::kSlide, 0, false);
+            break;
+    }
+    advance(ball, now);
+}
+
+/// The ball is at x now; its piece follows, by the rounding that it is off.
+void ExactRun::put_at(int ball, double now, const Vec3& x) {
+    world_.ball(ball).piece.position += x - world_.position(ball, now);
+}
+
+/// On its surface, and moving along it, to rounding: before it is met by something else.
+void ExactRun::put_on_surface(int ball, double now) {
+    ExactBall& b = world_.ball(ball);
+    if (!b.piece.curve || b.surface < 0) return;
+    const Contact c = world_.contact_at(ball, {true, b.surface}, now);
+    put_at(ball, now, world_.position(ball, now) + c.depth * c.normal);
+    const Vec3 v = world_.velocities(ball, now).linear;
+    b.piece.velocity -= v.dot(c.normal) * c.normal;
+    // What that does to the place again.
+    put_at(ball, now,
+           world_.position(ball, now) + v.dot(c.normal) * (now - b.piece.start) * c.normal);
+}
+
+}  // namespace carom

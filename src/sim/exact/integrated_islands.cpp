@@ -1,0 +1,317 @@
+// Small islands whose contacts all last: integrated, instead of stepped by ODE.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/exact/run.h"
+#include "sim/group/island_step.h"
+#include "sim/integrate/coupled_motion.h"
+#include "sim/integrate/uniform_piece.h"
+#include "sim/law/contact_modes.h"
+#include "sim/world/seams.h"
+
+namespace carom {
+
+namespace {
+
+/// What has been no faster than the rounding of its speeds for so long is at rest.
+constexpr double kStillSeconds = 2;
+
+/// At rest gravity sets nothing in motion but roundings, as fractions of g and of the speeds.
+constexpr double kBalanced = 1e-12;
+
+/// Integrated velocities leave this fraction of the speeds of a 0.
+constexpr double kRoundingSpeed = 1e-11;
+
+/// Where there are more balls, three that touch will soon touch others, as in a box into which they
+/// are poured: they are stepped from the beginning.
+constexpr std::size_t kFewBalls = 20;
+
+/// An island whose laws change all the time, as between balls that are being poured, is stepped for
+/// a while: so many pieces on end are shorter than a step.
+constexpr int kMostShortPieces = 60;
+constexpr double kRestlessSeconds = 0.25;
+
+EventKind kind_of(CurvedMode mode) {
+    return mode == CurvedMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
+}
+
+/// All contacts and their modes as one number.
+std::uint64_t modes_of(const LinkedBalls& system) {
+    std::uint64_t modes = system.ball_count;
+    for (std::size_t i = 0; i < system.contact_count; ++i) {
+        const LinkedContact& c = system.contacts[i];
+        modes = 64 * modes + 16 * static_cast<std::uint64_t>(c.ball) +
+                4 * static_cast<std::uint64_t>(c.other + 1) + static_cast<std::uint64_t>(c.mode);
+    }
+    return modes;
+}
+
+bool is_still(const LinkedBalls& system, const LinkedState& state, const LinkedForces& forces) {
+    const double speed = kBalanced * speed_of(system, {});
+    const double pull = kBalanced * system.gravity.norm();
+    for (std::size_t b = 0; b < system.ball_count; ++b)
+        if (state[b].v.norm() > speed || forces.acceleration[b].norm() > pull ||
+            system.balls[b].radius * forces.spin_rate[b].norm() > pull)
+            return false;
+    return std::all_of(
+        system.contacts.begin(), system.contacts.begin() + system.contact_count,
+        [](const LinkedContact& c) { return !c.presses || c.mode != CurvedMode::kSliding; });
+}
+
+}  // namespace
+
+bool ExactRun::has_many_balls() const { return world_.balls.size() > kFewBalls; }
+
+/// The island as a system of its own. False if it is too large, or not together.
+bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedIsland& is) const {
+    if (island.size() > (has_many_balls() ? 2 : kMostLinkedBalls)) return false;
+    if (world_.scene.simulation.gravity.isZero(0)) return false;
+    LinkedBalls& system = is.system;
+    system.gravity = world_.scene.simulation.gravity;
+    system.ball_count = island.size();
+    const auto place = [&island](int ball) {
+        return static_cast<int>(std::find(island.begin(), island.end(), ball) - island.begin());
+    };
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        const ExactBall& body = world_.ball(island[b]);
+        system.balls[b] = {body.radius, body.mass, body.inertia_factor};
+        const Velocities velocities = world_.velocities(island[b], now);
+        is.state[b] = {world_.position(island[b], now), velocities.linear, velocities.spin};
+        for (const Link& link : links_.of(island[b])) {
+            const Contact c = world_.contact_at(island[b], link.partner, now);
+            if (c.ball != island[b]) continue;
+            if (system.contact_count == kMostLinkedContacts || -c.depth < -kLinkGap * body.radius)
+                return false;
+            LinkedContact& contact = system.contacts[system.contact_count++];
+            contact.ball = place(c.ball);
+            contact.friction = c.friction;
+            if (link.slip_begins) contact.mode = CurvedMode::kIncipient;
+            if (c.other.is_surface) {
+                contact.feature = curved_contact(world_.surface(c.other.index).shape, is.state[b].x,
+                                                 tangential_part(velocities.linear, c.normal),
+                                                 body.radius, system.gravity);
+                add_borders_of_others(world_, c, is.state[b], contact.feature);
+            } else {
+                contact.other = place(c.other.index);
+                contact.feature.distance = body.radius + world_.ball(c.other.index).radius;
+            }
+            is.contacts.push_back(c);
+        }
+    }
+    return true;
+}
+
+/// Two that do not press any more have parted.
+void ExactRun::note_parting(const Contact& c, double now) {
+    std::erase_if(partings_, [now](const Parting& p) { return p.time < now; });
+    partings_.push_back({c.ball, c.other, now});
+    std::erase_if(landings_,
+                  [&c](const Landing& l) { return l.ball == c.ball && l.partner == c.other; });
+}
+
+void ExactRun::unlink(const Contact& c, double now) {
+    note_parting(c, now);
+    const Link* link = links_.find(c.ball, c.other);
+    if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
+        row_of(c, EventKind::kLeave, now);
+    const auto forget = [this](int ball, const Partner& partner) {
+        std::erase_if(links_.of(ball), [&](const Link& l) { return l.partner == partner; });
+        world_.ball(ball).steps = std::max(world_.ball(ball).steps, 1);
+    };
+    forget(c.ball, c.other);
+    if (!c.other.is_surface) forget(c.other.index, {false, c.ball});
+}
+
+/// Whether the contact has had an impact at this instant, the friction of which it gives back: that
+/// of an earlier one has had its effect.
+bool ExactRun::has_hit(const Contact& c, double now) const {
+    const std::vector<Event>& events = motion_.events;
+    for (auto e = events.rbegin(); e != events.rend() && e->time == now; ++e)
+        if (e->kind == EventKind::kImpact && e->ball == c.ball && e->other == c.other) return true;
+    return false;
+}
+
+ExactRun::Parting* ExactRun::parting_of(const Contact& contact, double now) {
+    const auto found = std::find_if(partings_.begin(), partings_.end(), [&](const Parting& p) {
+        return p.time == now && p.ball == contact.ball && p.partner == contact.other;
+    });
+    return found == partings_.end() ? nullptr : &*found;
+}
+
+/// After steps of ODE gaps are shut that a step does not see; if that lifts balls, their speeds
+/// pay.
+void ExactRun::pay_for_places(const std::vector<int>& island, double now, LinkedIsland& is) const {
+    if (std::none_of(island.begin(), island.end(),
+                     [this](int ball) { return world_.ball(ball).coarse; }))
+        return;
+    double kinetic = 0, before = 0, lifted = 0;
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        const ExactBall& ball = world_.ball(island[b]);
+        const double inertia = ball.inertia_factor * ball.mass * ball.radius * ball.radius;
+        const Velocities v = world_.velocities(island[b], now);
+        const CurvedState& s = is.state[b];
+        before += 0.5 * (ball.mass * v.linear.squaredNorm() + inertia * v.spin.squaredNorm());
+        kinetic += 0.5 * (ball.mass * s.v.squaredNorm() + inertia * s.w.squaredNorm());
+        lifted -= ball.mass * is.system.gravity.dot(s.x - world_.position(island[b], now));
+    }
+    const double excess = kinetic + lifted - before;
+    if (excess <= kBalanced * kinetic) return;
+    const double factor = std::sqrt(std::max(0.0, 1 - excess / kinetic));
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        is.state[b].v *= factor;
+        is.state[b].w *= factor;
+    }
+}
+
+/// The next pieces of the balls of a small island, all of the same length; or some of its contacts
+/// part now. False where it has to be stepped.
+bool ExactRun::integrate(const std::vector<int>& island, double now) {
+    LinkedIsland is;
+    if (!linked_system(island, now, is)) return false;
+    if (island.size() == 1 && is.contacts.size() < 2) return false;
+    const LinkedForces before = linked_forces(is.system, is.state);
+    const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
+    std::array<bool, kMostLinkedContacts> gives_back{};
+    bool lands = false;
+    for (std::size_t i = 0; i < is.contacts.size(); ++i) {
+        if (landing_of(is.contacts[i], now) == nullptr) continue;
+        lands = true;
+        gives_back[i] = now == 0 || has_hit(is.contacts[i], now);  // the first hop had no impact
+    }
+    if (lands) land(is.system, gives_back, is.state);
+    if (!choose_modes(is.system, is.state)) return false;
+    pay_for_places(island, now, is);
+    bool parted = false;
+    LinkedForces forces = linked_forces(is.system, is.state);
+    for (std::size_t i = 0; i < is.contacts.size(); ++i) {
+        if (is.system.contacts[i].presses) continue;
+        const Parting* parting = parting_of(is.contacts[i], now);
+        // What still approaches is left to a step.
+        if (before.contacts[i].speed < -rounding_speed || (parting != nullptr && parting->pressed))
+            return false;
+        if (is_idle(is.system, forces.contacts[i])) continue;
+        unlink(is.contacts[i], now);
+        parted = true;
+    }
+    LinkedPiece piece;
+    if (parted) {  // what is left of the island is due again
+        begin_pieces(island, now, is, piece, rounding_speed);
+        return true;
+    }
+    const bool still = is_still(is.system, is.state, forces);
+    if (!still) piece = piece_of(island.front(), now, is, forces);
+    if (!still && !(piece.seconds > 0)) return false;
+    begin_pieces(island, now, is, piece, rounding_speed);
+    note_forces(is, forces, still, now);
+    ++report_.integrated;
+    // A series that is over has its row at its end.
+    const double row = next_row(island, now);
+    for (const int ball : island) {
+        double& end = world_.ball(ball).phase_end;
+        end = still ? row : std::min(end, row);
+    }
+    if (std::isinf(row) && (still || is_at_rest(island, is, forces, now, piece.seconds)))
+        fall_asleep(island, now, 0);
+    return true;
+}
+
+/// A piece of no length is one at rest.
+void ExactRun::begin_pieces(const std::vector<int>& island, double now, const LinkedIsland& is,
+                            const LinkedPiece& piece, double rounding_speed) {
+    for (std::size_t b = 0; b < island.size(); ++b) {
+        ExactBall& ball = world_.ball(island[b]);
+        BallState at = world_.state(island[b], now);
+        at.position = is.state[b].x;
+        at.velocity = is.state[b].v;
+        at.spin = is.state[b].w;
+        ++ball.steps;
+        ball.rounding_speed = rounding_speed;
+        ball.phase_end = now + piece.seconds;
+        ball.stepped = true;
+        ball.coarse = false;
+        begin_piece(island[b], now, at, piece.balls[b].acceleration, piece.balls[b].spin_rate,
+                    piece.seconds > 0 && piece.curved ? OptionalCurve(piece.balls[b].curve)
+                                                      : OptionalCurve());
+    }
+}
+
+/// The next piece; of no length where the island has to be stepped.
+LinkedPiece ExactRun::piece_of(int first_ball, double now, LinkedIsland& is, LinkedForces& forces) {
+    if (std::optional<LinkedPiece> steady =
+            steady_piece(is.system, is.state, forces, now, end_ - now))
+        return *steady;
+    PieceGuess& guess = piece_guess_[first_ball];
+    if (now < guess.stepped_until) return {};
+    const std::uint64_t modes = modes_of(is.system);
+    LinkedPiece piece =
+        next_piece(is.system, is.state, now, guess.modes == modes ? guess.seconds : 0);
+    // What ends at once is over.
+    for (std::size_t i = 0; i < 2 * is.contacts.size() && piece.seconds == 0; ++i) {
+        if (piece.end == LinkedEnd::kParts) {
+            is.system.contacts[piece.contact].presses = false;
+        } else if (piece.end != LinkedEnd::kGripEnds ||
+                   !begin_slip(is.system, is.state, piece.contact)) {
+            return {};
+        }
+        forces = linked_forces(is.system, is.state);
+        if (!is.system.contacts[piece.contact].presses &&
+            !is_idle(is.system, forces.contacts[piece.contact]))
+            return {};
+        piece = next_piece(is.system, is.state, now, 0);
+    }
+    guess.seconds = piece.next_seconds;
+    guess.modes = modes;
+    guess.short_pieces = piece.seconds < kIslandStep ? guess.short_pieces + 1 : 0;
+    if (guess.short_pieces > kMostShortPieces) {
+        guess.short_pieces = 0;
+        guess.stepped_until = now + kRestlessSeconds;
+    }
+    return piece;
+}
+
+/// Whether the speeds and slips of the island have long been what rounding leaves, `seconds` of it
+/// ahead. Newton's first law knows no lowest speed but that.
+bool ExactRun::is_at_rest(const std::vector<int>& island, const LinkedIsland& is,
+                          const LinkedForces& forces, double now, double seconds) {
+    const double slow = kRoundingSpeed * speed_of(is.system, {});
+    bool calm = std::all_of(island.begin(), island.end(), [&](int ball) {
+        return world_.velocities(ball, now).linear.norm() <= slow &&
+               world_.velocities(ball, now + seconds).linear.norm() <= slow;
+    });
+    for (std::size_t i = 0; i < is.contacts.size(); ++i)
+        calm =
+            calm && (is.system.contacts[i].friction == 0 || forces.contacts[i].slip.norm() <= slow);
+    bool long_enough = calm;
+    for (const int ball : island) {
+        ExactBall& b = world_.ball(ball);
+        b.slow_steps = calm ? b.slow_steps + static_cast<int>(seconds / kIslandStep) + 1 : 0;
+        long_enough = long_enough && b.slow_steps * kIslandStep >= kStillSeconds;
+    }
+    return long_enough;
+}
+
+/// What the rows say about the contacts, whose kinds are known.
+void ExactRun::note_forces(const LinkedIsland& is, const LinkedForces& forces, bool still,
+                           double now) {
+    for (std::size_t i = 0; i < is.contacts.size(); ++i) {
+        const Contact& contact = is.contacts[i];
+        const LinkedContactForces& at = forces.contacts[i];
+        const CurvedMode mode = is.system.contacts[i].mode;
+        const bool presses = is.system.contacts[i].presses;
+        note_push(contact, presses ? Vec3(kIslandStep * (at.push * at.normal + at.friction))
+                                   : Vec3(Vec3::Zero()));
+        for (Link& link : links_.of(contact.ball)) {
+            if (link.partner != contact.other) continue;
+            link.pressed = presses;
+            link.slip_begins = mode == CurvedMode::kIncipient;
+            if (!link.pressed) continue;
+            link.last = contact;
+            if (still || kind_of(mode) == link.stated || row_waits(link, now)) continue;
+            if (!link.from_start) row_of(contact, kind_of(mode), now);
+            link.from_start = false;
+            link.stated = link.candidate = kind_of(mode);
+        }
+    }
+}
+
+}  // namespace carom

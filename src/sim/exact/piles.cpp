@@ -1,0 +1,250 @@
+// The crowd's part of a run: who joins it, its steps, who leaves it or falls asleep.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/exact/run.h"
+
+namespace carom {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A ball that has so many impacts within so many seconds, among so many others, joins a crowd:
+/// from there on a step costs less than the impacts that it stands for.
+constexpr int kManyImpacts = 8;
+constexpr double kImpactSeconds = 8e-3;
+constexpr std::size_t kManyBalls = 24;
+
+/// Balls stand together when their gap is below this part of the smaller radius.
+constexpr double kTogether = 0.2;
+
+/// A ball of a crowd rests when it has been slower than this fraction of the speed that gravity
+/// gives in the longest step, for so many seconds: what sets it in motion is below 4e-4 g.
+constexpr double kCalmFraction = 1e-2;
+constexpr double kCalmSeconds = 0.05;
+
+/// A ball leaves when for so many steps nothing has been near, or nothing but one flat surface.
+constexpr int kStepsAlone = 4, kStepsOnSurface = 16;
+
+/// It leaves onto a surface from at most this depth, as a part of its radius: it is put at depth 0.
+constexpr double kDepthOfRadius = 2e-5;
+
+/// A kind of contact is stated when it has been the same for so many steps.
+constexpr int kKindSteps = 8;
+
+}  // namespace
+
+// ---- Into the crowd
+// ------------------------------------------------------------------------------
+
+/// Called for each ball of an impact; one that has too many joins the crowd.
+void ExactRun::note_impact(int ball, double now) {
+    if (world_.scene.simulation.gravity.isZero(0) || world_.balls.size() < kManyBalls) return;
+    ExactBall& b = world_.ball(ball);
+    if (now - b.impacts_since > kImpactSeconds) {
+        b.impacts_since = now;
+        b.recent_impacts = 0;
+    }
+    if (++b.recent_impacts < kManyImpacts) return;
+    b.recent_impacts = 0;
+    if (stand_together(ball, now)) want_in_crowd(ball, now);
+}
+
+bool ExactRun::stand_together(int ball, double now) {
+    std::vector<int> group = {ball};
+    for (std::size_t k = 0; k < group.size() && group.size() < kManyBalls; ++k) {
+        const Vec3 x = world_.position(group[k], now);
+        const double radius = world_.ball(group[k]).radius;
+        world_.for_each_near(group[k], [&](int other) {
+            const double reach = radius + world_.ball(other).radius +
+                                 kTogether * std::min(radius, world_.ball(other).radius);
+            if ((world_.position(other, now) - x).squaredNorm() > reach * reach) return;
+            if (std::find(group.begin(), group.end(), other) == group.end()) group.push_back(other);
+        });
+    }
+    return group.size() >= kManyBalls;
+}
+
+void ExactRun::want_in_crowd(int ball, double now) {
+    crowd_.want(ball);
+    if (next_step_ == kInfinity) next_step_ = now;
+}
+
+/// The ball's island, lasting contact and predictions end: the crowd has it.
+void ExactRun::enter_crowd(int ball, double now) {
+    ExactBall& b = world_.ball(ball);
+    for (const Link& link : links_.of(ball)) {
+        if (link.partner.is_surface) continue;
+        std::erase_if(links_.of(link.partner.index), [ball](const Link& back) {
+            return back.partner == Partner{false, ball};
+        });
+    }
+    links_.of(ball).clear();
+    const BallState at = world_.state(ball, now);
+    b.surface = -1;
+    b.stepped = b.asleep = false;
+    b.crowded = true;
+    b.phase_end = b.row_due = kInfinity;
+    begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+}
+
+bool ExactRun::meets_crowd(const Prediction& p) const {
+    return !p.partner.is_surface &&
+           (world_.ball(p.ball).crowded || world_.ball(p.partner.index).crowded);
+}
+
+// ---- A step
+// ---------------------------------------------------------------------------------------
+
+void ExactRun::step_crowd(double now) {
+    if (world_.grid)
+        for (const int ball : crowd_.awake()) {
+            if (!world_.grid->in_cell(ball)) continue;
+            const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
+            if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
+        }
+    taken_.clear();
+    crowd_.gather(now, links_, taken_);
+    for (const int ball : taken_) enter_crowd(ball, now);
+    crowd_.solve();
+    ++report_.steps;
+    for (const int ball : crowd_.awake()) move_with_crowd(ball, now);
+    for (CrowdPair& pair : crowd_.pairs()) state_pair(pair, now);
+    next_step_ = now + crowd_.seconds();
+
+    taken_ = crowd_.awake();
+    for (const int ball : taken_) leave_crowd(ball, now);
+    crowd_.tidy();
+    if (crowd_.empty()) next_step_ = kInfinity;
+}
+
+void ExactRun::move_with_crowd(int ball, double now) {
+    const CrowdBall& c = crowd_.of(ball);
+    const Piece& piece = world_.ball(ball).piece;
+    const Vec3& gravity = world_.scene.simulation.gravity;
+    // A flight goes on.
+    if (!c.pushed && piece.acceleration == gravity && piece.spin_rate.isZero(0)) return;
+    BallState at = c.at;
+    at.velocity = c.started.linear;
+    at.spin = c.started.spin;
+    const double h = crowd_.seconds();
+    const Vec3 a = c.pushed ? Vec3((c.after.linear - at.velocity) / h) : gravity;
+    const Vec3 turn = c.pushed ? Vec3((c.after.spin - at.spin) / h) : Vec3(Vec3::Zero());
+    begin_piece(ball, now, at, a, turn);
+}
+
+/// Out of the crowd, into flight or onto a surface, or to sleep.
+void ExactRun::leave_crowd(int ball, double now) {
+    CrowdBall& c = crowd_.of(ball);
+    const Velocities velocities = c.started;
+    if (c.near <= 1 && leaves_crowd_alone(ball, now, velocities)) return;
+    const double calm = kCalmFraction * 0.5 * crowd_.slow_speed(), r = world_.ball(ball).radius;
+    const bool is_calm =
+        c.started.linear.norm() < calm && c.after.linear.norm() < calm &&
+        (r * c.after.spin.norm() < calm || r * (c.after.spin - c.started.spin).norm() < 0.1 * calm);
+    c.calm_seconds = is_calm && c.pushed ? c.calm_seconds + crowd_.seconds() : 0;
+    if (c.calm_seconds < kCalmSeconds) return;
+
+    ExactBall& b = world_.ball(ball);
+    BallState at = world_.state(ball, now);
+    at.velocity.setZero();
+    if (r * at.spin.norm() < calm) at.spin.setZero();
+    b.asleep = true;
+    begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+    c.load = 0;
+    crowd_.lay_to_sleep(ball);
+    for (CrowdPair& pair : crowd_.pairs()) {
+        if (pair.ball != ball && (pair.other.is_surface || pair.other.index != ball)) continue;
+        c.load = std::max(c.load, pair.force);
+        const int other = pair.ball == ball ? pair.other.index : pair.ball;
+        if (!(pair.force > 0) || pair.stated == EventKind::kRest) continue;
+        if (!pair.other.is_surface && !crowd_.asleep(other)) continue;
+        pair.stated = EventKind::kRest;
+        if (!pair.from_start) motion_.events.push_back(event_of(pair, EventKind::kRest, now));
+    }
+    predict(ball, now);
+}
+
+bool ExactRun::leaves_crowd_alone(int ball, double now, const Velocities& velocities) {
+    CrowdBall& c = crowd_.of(ball);
+    const CrowdPair* floor = nullptr;
+    if (c.near == 1)
+        for (const CrowdPair& pair : crowd_.pairs())
+            if (pair.ball == ball && pair.other.is_surface && pair.force > 0) floor = &pair;
+    if (c.near == 1 && floor == nullptr) {
+        c.lone_steps = 0;
+        return false;
+    }
+    if (++c.lone_steps < (floor == nullptr ? kStepsAlone : kStepsOnSurface)) return false;
+    Contact contact;
+    if (floor != nullptr) {
+        contact = world_.contact_at(ball, floor->other, now);
+        if (contact.depth > kDepthOfRadius * world_.ball(ball).radius) return false;
+        if (!can_hold(ball, now, contact, velocities)) return false;
+        if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * crowd_.slow_speed())
+            return false;
+    }
+    crowd_.release(ball);
+    ExactBall& b = world_.ball(ball);
+    b.crowded = false;
+    if (floor == nullptr) {
+        fly(ball, now, velocities);
+    } else {
+        if (floor->stated != EventKind::kLeave) {
+            b.surface = floor->other.index;
+            b.kind = floor->stated;
+        }
+        hold(ball, now, contact, velocities, 0, floor->from_start);
+    }
+    predict(ball, now);
+    return true;
+}
+
+// ---- Rows
+// -----------------------------------------------------------------------------------------
+
+void ExactRun::state_pair(CrowdPair& pair, double now) {
+    if (pair.bounces && pair.impact_push > 0) {
+        Event e = event_of(pair, EventKind::kImpact, now);
+        e.approach_speed = pair.closing;
+        e.separation_speed = std::max(pair.separation, 0.0);
+        e.restitution = pair.restitution;
+        e.impulse = pair.impact_push;
+        e.tangential_impulse = pair.impact_tangential;
+        motion_.events.push_back(e);
+        ++report_.impacts;
+    }
+    if (pair.stated != EventKind::kLeave && pair.gap > crowd_.parting_gap()) {
+        pair.stated = pair.candidate = EventKind::kLeave;
+        motion_.events.push_back(event_of(pair, EventKind::kLeave, now));
+    }
+    if (!(pair.force > 0)) return;
+    const EventKind kind =
+        pair.slip > 0.1 * crowd_.slow_speed() ? EventKind::kSlide : EventKind::kRoll;
+    if (pair.stated == EventKind::kRest && kind == EventKind::kRoll &&
+        pair.slip < kCalmFraction * crowd_.slow_speed())
+        return;
+    if (kind != pair.candidate) {
+        pair.candidate = kind;
+        pair.candidate_steps = 0;
+    }
+    if (++pair.candidate_steps < kKindSteps || kind == pair.stated) return;
+    if (!pair.from_start) motion_.events.push_back(event_of(pair, kind, now));
+    pair.from_start = false;
+    pair.stated = kind;
+}
+
+Event ExactRun::event_of(const CrowdPair& pair, EventKind kind, double now) const {
+    Event e;
+    e.time = now;
+    e.ball = pair.ball;
+    e.other = pair.other;
+    e.kind = kind;
+    e.normal = pair.normal;
+    e.point = world_.position(pair.ball, now) -
+              (world_.ball(pair.ball).radius + 0.5 * pair.gap) * pair.normal;
+    return e;
+}
+
+}  // namespace carom

@@ -1,0 +1,57 @@
+// Who rests, and what the others do.
+#include <cmath>
+
+#include "sim/exact/run.h"
+#include "sim/record/unrest.h"
+
+namespace carom {
+
+bool ExactRun::at_rest(int ball) const {
+    const ExactBall& b = world_.ball(ball);
+    return b.asleep || (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.row_due));
+}
+
+bool ExactRun::all_at_rest() {
+    // The ball that moved when last asked most likely still does.
+    const std::size_t balls = world_.balls.size();
+    for (std::size_t i = 0; i < balls; ++i) {
+        const std::size_t ball = (awake_ + i) % balls;
+        if (at_rest(static_cast<int>(ball))) continue;
+        awake_ = ball;
+        return false;
+    }
+    return true;
+}
+
+/// What a ball does, for people.
+std::string ExactRun::doing(int ball) const {
+    const ExactBall& b = world_.ball(ball);
+    if (b.crowded) return "moves in a pile";
+    const auto on = [this](const char* verb, const Partner& partner) {
+        return std::string(verb) + " on " + world_.name(partner);
+    };
+    if (b.surface >= 0) {
+        const Partner surface{true, b.surface};
+        if (!std::isinf(b.row_due)) return on("bounces", surface);
+        return on(b.kind == EventKind::kRoll ? "rolls" : "slides", surface);
+    }
+    if (!b.stepped) return "flies";
+    std::string text = "moves";
+    for (const Link& link : links_.of(ball))
+        text += (&link == &links_.of(ball).front() ? " on " : " and ") + world_.name(link.partner);
+    return text;
+}
+
+/// All that does not rest at the end.
+std::string ExactRun::unrest() const {
+    std::vector<UnrestedBall> moving;
+    for (int i = 0; i < static_cast<int>(world_.balls.size()); ++i) {
+        if (at_rest(i)) continue;
+        const Velocities v = world_.velocities(i, end_);
+        moving.push_back({world_.body(i).name, doing(i), v.linear.norm(),
+                          world_.ball(i).radius * v.spin.norm()});
+    }
+    return unrest_text(moving, end_);
+}
+
+}  // namespace carom

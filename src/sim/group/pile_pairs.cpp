@@ -1,0 +1,276 @@
+// Who belongs to a crowd, and who is near whom in it.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/nearest.h"
+#include "sim/group/pile.h"
+
+namespace carom {
+
+namespace {
+
+/// The longest step of a crowd [s], and how often it may be halved.
+constexpr double kLongestStep = 1.0 / 1000;
+constexpr int kMostHalvings = 12;
+
+/// A pair closes by at most this part of its smaller radius in a step, so that a rebound at the
+/// step's start is early by no more than that.
+constexpr double kStepOfRadius = 0.03;
+
+/// Pairs up to this gap, as a part of the smallest radius, are kept from step to step.
+constexpr double kSkinOfRadius = 0.4;
+
+/// Gaps of up to this part of the smallest radius are looked at in any case.
+constexpr double kLeastSlack = 1e-4;
+
+/// A sleeping ball wakes when something bounces off it, or presses on it with this multiple of its
+/// load and weight.
+constexpr double kWakeLoad = 2;
+
+/// A touching pair of which one sleeps has parted when its gap is above this part of the smallest
+/// radius: its support may be gone.
+constexpr double kParted = 1e-3;
+
+}  // namespace
+
+Crowd::Crowd(const ExactWorld& world)
+    : world_(world),
+      balls_(world.balls.size()),
+      bodies_(world.balls.size()),
+      shift_(world.balls.size(), Vec3::Zero()) {
+    smallest_radius_ = INFINITY;
+    for (const Ball& b : world.scene.balls) smallest_radius_ = std::min(smallest_radius_, b.radius);
+    skin_ = kSkinOfRadius * smallest_radius_;
+    const double g = world.scene.simulation.gravity.norm();
+    longest_ = kLongestStep;
+    for (int i = 0; i < kMostHalvings; ++i)
+        if (g * longest_ * longest_ > kStepOfRadius * smallest_radius_) longest_ *= 0.5;
+}
+
+double Crowd::slow_speed() const { return 2 * world_.scene.simulation.gravity.norm() * longest_; }
+
+double Crowd::parting_gap() const { return kParted * smallest_radius_; }
+
+Vec3 Crowd::position_of(int ball, double now) const {
+    return of(ball).member ? of(ball).at.position : world_.position(ball, now);
+}
+
+Vec3 Crowd::velocity_of(int ball, double now) const {
+    return of(ball).member ? of(ball).at.velocity : world_.velocities(ball, now).linear;
+}
+
+// ---- Members
+// ------------------------------------------------------------------------------------
+
+void Crowd::want(int ball) {
+    if (of(ball).wanted || (of(ball).member && !of(ball).asleep)) return;
+    of(ball).wanted = true;
+    wanted_.push_back(ball);
+}
+
+/// Makes a ball a member that is awake.
+void Crowd::take(int ball, double now, double wake_speed, const Links& links) {
+    CrowdBall& b = of(ball);
+    const bool known = b.member;  // it slept: its pairs with those awake are there already
+    b.member = true;
+    b.asleep = b.wanted = false;
+    b.wake_speed = wake_speed;
+    b.lone_steps = 0;
+    b.calm_seconds = 0;
+    b.at = world_.state(ball, now);
+    const ExactBall& body = world_.ball(ball);
+    bodies_[static_cast<std::size_t>(ball)] = {b.at.velocity, body.radius * b.at.spin,
+                                               1 / body.mass, 1 / (body.inertia_factor * body.mass),
+                                               0};
+    awake_.insert(std::lower_bound(awake_.begin(), awake_.end(), ball), ball);
+    add_pairs_of(ball, now, links, known);
+}
+
+void Crowd::release(int ball) {
+    CrowdBall& b = of(ball);
+    b.member = b.asleep = b.wanted = false;
+}
+
+void Crowd::lay_to_sleep(int ball) {
+    CrowdBall& b = of(ball);
+    b.asleep = true;
+    b.at.velocity.setZero();
+    CrowdBody& as_body = body(ball);
+    as_body.velocity.setZero();
+    as_body.inverse_mass = as_body.inverse_spin = 0;
+}
+
+void Crowd::tidy() {
+    std::erase_if(awake_, [this](int ball) { return !of(ball).member || of(ball).asleep; });
+    // Of two sleepers nothing is to be solved; the pair is found again when one wakes.
+    std::erase_if(pairs_, [this](const CrowdPair& p) {
+        const bool awake = of(p.ball).member && !of(p.ball).asleep;
+        return !awake &&
+               (p.other.is_surface || !of(p.other.index).member || of(p.other.index).asleep);
+    });
+}
+
+// ---- Pairs
+// --------------------------------------------------------------------------------------
+
+/// The pairs of a ball that are not in the list: a member that is awake has its own there.
+void Crowd::add_pairs_of(int ball, double now, const Links& links, bool slept) {
+    const std::size_t first = pairs_.size();
+    const Vec3 x = position_of(ball, now);
+    const ExactBall& body = world_.ball(ball);
+    const auto add = [&](int a, const Partner& partner, int material) {
+        CrowdPair pair;
+        pair.ball = a;
+        pair.other = partner;
+        const PairProperties both = world_.pair(world_.ball(a).material, material);
+        pair.restitution = both.restitution;
+        pair.friction = both.friction;
+        if (const Link* link = links.find(a, partner)) {
+            pair.stated = link->stated;
+            pair.from_start = link->from_start;
+        } else if (const ExactBall& held = world_.ball(a);
+                   partner.is_surface && held.surface == partner.index) {
+            pair.stated = std::isinf(held.row_due) ? held.kind : EventKind::kLeave;
+        } else if (slept) {
+            pair.stated = EventKind::kRest;
+        }
+        pair.from_start |= now == 0;
+        pairs_.push_back(pair);
+    };
+    world_.for_each_surface_near(ball, x, body.radius + skin_, [&](int s) {
+        const Surface& surface = world_.surface(s);
+        if (nearest_on(surface.shape, x, body.radius).gap < skin_)
+            add(ball, {true, s}, surface.material);
+    });
+    const auto near = [&](int other) {
+        if (of(other).member && !of(other).asleep) return;
+        const double reach = skin_ + body.radius + world_.ball(other).radius;
+        if ((x - position_of(other, now)).squaredNorm() >= reach * reach) return;
+        add(std::min(ball, other), {false, std::max(ball, other)}, world_.ball(other).material);
+    };
+    if (world_.balls_can_meet && world_.grid)
+        world_.grid->for_each_touching(ball, x, body.radius + skin_, near);
+    else
+        world_.for_each_near(ball, near);
+    std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end(),
+              [](const CrowdPair& a, const CrowdPair& b) { return a.key() < b.key(); });
+}
+
+/// All pairs anew; what was known of the old ones stays.
+void Crowd::find_pairs(double now, const Links& links) {
+    const auto by_key = [](const CrowdPair& a, const CrowdPair& b) { return a.key() < b.key(); };
+    std::swap(pairs_, old_pairs_);
+    std::sort(old_pairs_.begin(), old_pairs_.end(), by_key);
+    pairs_.clear();
+    // A member counts as asleep until its turn has come: so each pair comes up once.
+    for (const int ball : awake_) of(ball).asleep = true;
+    for (const int ball : awake_) {
+        add_pairs_of(ball, now, links, false);
+        of(ball).asleep = false;
+    }
+    std::sort(pairs_.begin(), pairs_.end(), by_key);
+    auto old = old_pairs_.begin();
+    for (CrowdPair& pair : pairs_) {
+        while (old != old_pairs_.end() && old->key() < pair.key()) ++old;
+        if (old != old_pairs_.end() && old->key() == pair.key()) pair = *old;
+    }
+    moved_ = 0;
+}
+
+/// Where the two stand, and how fast they close.
+void Crowd::look_at(CrowdPair& pair, double now) {
+    const Vec3 x = position_of(pair.ball, now), v = velocity_of(pair.ball, now);
+    const double radius = world_.ball(pair.ball).radius;
+    if (pair.other.is_surface) {
+        const Nearest nearest = nearest_on(world_.surface(pair.other.index).shape, x, radius);
+        pair.normal = nearest.normal;
+        pair.gap = nearest.gap;
+        pair.closing = -v.dot(nearest.normal);
+    } else {
+        const Vec3 apart = x - position_of(pair.other.index, now);
+        const double distance = apart.norm();
+        pair.normal = distance > 0 ? Vec3(apart / distance) : Vec3::UnitZ();
+        pair.gap = distance - radius - world_.ball(pair.other.index).radius;
+        pair.closing = -(v - velocity_of(pair.other.index, now)).dot(pair.normal);
+    }
+    if (pair.closing * longest_ <= pair.gap) return;
+    fastest_closing_ = std::max(fastest_closing_, pair.closing);
+}
+
+void Crowd::choose_seconds() {
+    seconds_ = longest_;
+    for (int i = 0; i < kMostHalvings; ++i)
+        if (fastest_closing_ * seconds_ > kStepOfRadius * smallest_radius_) seconds_ *= 0.5;
+    slack_ = kLeastSlack * smallest_radius_ + fastest_closing_ * seconds_ +
+             world_.scene.simulation.gravity.norm() * seconds_ * seconds_;
+}
+
+/// Whether a pair brings a new ball into the step, or wakes one: then its own pairs have to be
+/// looked at as well.
+bool Crowd::draws_in(const CrowdPair& pair, double now, const Links& links,
+                     std::vector<int>& taken) {
+    if (pair.other.is_surface) return false;
+    const int a = pair.ball, b = pair.other.index;
+    const auto sleeps = [this](int ball) { return of(ball).member && of(ball).asleep; };
+    const bool parted = pair.touching && pair.gap > parting_gap();
+    for (const auto& [ball, by] : {std::pair{a, b}, std::pair{b, a}}) {
+        const CrowdBall& it = of(ball);
+        if (it.member && !it.asleep) continue;
+        double wake_speed = 0;
+        bool draws = !it.member && pair.gap < slack_;
+        if (sleeps(ball)) {
+            const double speed = std::max(pair.closing, 0.5 * of(by).wake_speed);
+            const bool hit = pair.gap < slack_ && speed > slow_speed();
+            const double weight = world_.ball(ball).mass * world_.scene.simulation.gravity.norm();
+            draws = hit || parted || pair.force > kWakeLoad * (it.load + weight);
+            wake_speed = hit ? speed : 0;
+        }
+        if (!draws) continue;
+        taken.push_back(ball);
+        take(ball, now, wake_speed, links);
+        return true;
+    }
+    return false;
+}
+
+void Crowd::gather(double now, const Links& links, std::vector<int>& taken) {
+    for (const int ball : awake_) {
+        CrowdBall& b = of(ball);
+        b.at = world_.state(ball, now);
+        b.wake_speed = 0;
+        CrowdBody& as_body = body(ball);
+        as_body.velocity = b.at.velocity;
+        as_body.rim = world_.ball(ball).radius * b.at.spin;
+    }
+    double fastest = 0;
+    for (int i = 0; i < static_cast<int>(balls_.size()); ++i)
+        if (!of(i).asleep) fastest = std::max(fastest, velocity_of(i, now).squaredNorm());
+    const double step = (std::sqrt(fastest) + slow_speed()) * longest_;
+    moved_ += 2 * step;
+    if (moved_ + 2 * step > skin_) find_pairs(now, links);
+    std::sort(wanted_.begin(), wanted_.end());
+    for (const int ball : wanted_) {
+        if (!of(ball).wanted || (of(ball).member && !of(ball).asleep)) continue;
+        taken.push_back(ball);
+        take(ball, now, 0, links);
+    }
+    wanted_.clear();
+
+    // New balls bring new pairs, which may be faster and reach further.
+    fastest_closing_ = 0;
+    std::size_t seen = 0;
+    for (bool more = true; more;) {
+        for (; seen < pairs_.size(); ++seen) look_at(pairs_[seen], now);
+        choose_seconds();
+        more = false;
+        const auto awake = [this](int ball) { return of(ball).member && !of(ball).asleep; };
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            const CrowdPair& at = pairs_[i];
+            if (at.other.is_surface || (awake(at.ball) && awake(at.other.index))) continue;
+            const CrowdPair pair = at;  // what is drawn in makes the list grow
+            more |= draws_in(pair, now, links, taken);
+        }
+    }
+}
+
+}  // namespace carom

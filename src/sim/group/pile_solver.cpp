@@ -1,0 +1,106 @@
+#include "sim/group/pile_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+/// Gives an impulse, n x of its tangential part at hand, to a body; `sign` -1 for the other one.
+void push(CrowdBody& body, const Vec3& impulse, const Vec3& turn, double sign) {
+    body.velocity += sign * body.inverse_mass * impulse;
+    body.rim -= body.inverse_spin * turn;
+}
+
+/// Sets one contact right. Returns whether it changed a body by more than `still`.
+class Relaxation {
+  public:
+    Relaxation(std::vector<CrowdBody>& bodies, double still) : bodies_(bodies), still_(still) {}
+
+    void prepare(CrowdRow& row) {
+        const CrowdBody& a = body(row.ball);
+        double normal = a.inverse_mass, across = a.inverse_mass + a.inverse_spin;
+        if (row.other >= 0) {
+            const CrowdBody& b = body(row.other);
+            normal += b.inverse_mass;
+            across += b.inverse_mass + b.inverse_spin;
+        }
+        row.normal_mass = 1 / normal;
+        row.tangential_mass = 1 / across;
+        row.relaxed = -1;
+        if (!(row.friction > 0)) row.tangential.setZero();
+        if (row.push > 0) give(row, row.push * row.normal + row.tangential, row.tangential);
+    }
+
+    bool relax(CrowdRow& row) {
+        const int since = row.relaxed;
+        CrowdBody& a = body(row.ball);
+        CrowdBody* b = row.other >= 0 ? &body(row.other) : nullptr;
+        if (a.changed <= since && (b == nullptr || b->changed <= since)) return false;
+        row.relaxed = ++clock_;
+
+        const Vec3& n = row.normal;
+        const Vec3 apart = b == nullptr ? a.velocity : Vec3(a.velocity - b->velocity);
+        const double before = row.push;
+        row.push = std::max(before + (row.target - apart.dot(n)) * row.normal_mass, 0.0);
+        const double change = row.push - before;
+        Vec3 impulse = change * n, turn = Vec3::Zero();
+        if (row.friction > 0 && (row.push > 0 || before > 0)) {
+            const Vec3 slip = b == nullptr
+                                  ? Vec3(apart - apart.dot(n) * n + n.cross(a.rim))
+                                  : Vec3(apart - apart.dot(n) * n + n.cross(a.rim + b->rim));
+            Vec3 tangential = row.tangential - row.tangential_mass * slip;
+            const double bound = row.friction * row.push, size2 = tangential.squaredNorm();
+            if (size2 > bound * bound) tangential *= bound / std::sqrt(size2);
+            const Vec3 step = tangential - row.tangential;
+            row.tangential = tangential;
+            impulse += step;
+            turn = n.cross(step);
+        }
+        push(a, impulse, turn, 1);
+        if (b != nullptr) push(*b, impulse, turn, -1);
+        const double size = impulse.norm();
+        const bool a_moved = size * a.inverse_mass > still_;
+        const bool b_moved = b != nullptr && size * b->inverse_mass > still_;
+        // The contact itself is right now: only the others of these bodies are called on.
+        if (a_moved) a.changed = clock_ + 1;
+        if (b_moved) b->changed = clock_ + 1;
+        if (a_moved || b_moved) row.relaxed = ++clock_;
+        return a_moved || b_moved;
+    }
+
+  private:
+    CrowdBody& body(int i) { return bodies_[static_cast<std::size_t>(i)]; }
+    void give(CrowdRow& row, const Vec3& impulse, const Vec3& tangential) {
+        const Vec3 turn = row.normal.cross(tangential);
+        push(body(row.ball), impulse, turn, 1);
+        if (row.other >= 0) push(body(row.other), impulse, turn, -1);
+    }
+
+    std::vector<CrowdBody>& bodies_;
+    double still_;
+    int clock_ = 0;
+};
+
+}  // namespace
+
+void sweep_crowd(std::vector<CrowdBody>& bodies, std::vector<CrowdRow>& rows,
+                 const CrowdSweeps& sweeps) {
+    Relaxation relaxation(bodies, sweeps.still);
+    for (CrowdRow& row : rows) {
+        bodies[static_cast<std::size_t>(row.ball)].changed = 0;
+        if (row.other >= 0) bodies[static_cast<std::size_t>(row.other)].changed = 0;
+    }
+    for (CrowdRow& row : rows) relaxation.prepare(row);
+    for (int sweep = 0; sweep < sweeps.most; ++sweep) {
+        bool moved = false;
+        if (sweep % 2 == 0)
+            for (CrowdRow& row : rows) moved |= relaxation.relax(row);
+        else
+            for (std::size_t i = rows.size(); i-- > 0;) moved |= relaxation.relax(rows[i]);
+        if (!moved) break;
+    }
+}
+
+}  // namespace carom

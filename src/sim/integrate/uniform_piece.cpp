@@ -1,0 +1,91 @@
+#include "sim/integrate/uniform_piece.h"
+
+#include <algorithm>
+
+#include "sim/math/polynomial.h"
+
+namespace carom {
+
+namespace {
+
+/// Fractions of the rates at hand below which they are rounding.
+constexpr double kSteady = 1e-13;
+
+/// What rounding leaves of accelerations that are 0 moves a ball by 1e-12 m in so many seconds.
+constexpr double kLongest = 30;
+
+bool is_parallel(const Vec3& a, const Vec3& b) {
+    return a.cross(b).norm() <= kSteady * a.norm() * b.norm();
+}
+
+/// The rates of a ball's motion; what rounding of gravity left of a 0 is 0, so that it does not add
+/// up.
+Vec3 acceleration(const LinkedBalls& system, const LinkedForces& f, std::size_t ball) {
+    const Vec3& a = f.acceleration[ball];
+    return a.norm() > kSteady * system.gravity.norm() ? a : Vec3(Vec3::Zero());
+}
+Vec3 spin_rate(const LinkedBalls& system, const LinkedForces& f, std::size_t ball) {
+    const Vec3& b = f.spin_rate[ball];
+    const double rim = system.balls[ball].radius * b.norm();
+    return rim > kSteady * system.gravity.norm() ? b : Vec3(Vec3::Zero());
+}
+
+bool is_steady(const LinkedBalls& system, const LinkedState& state, const LinkedForces& f) {
+    for (std::size_t b = 0; b < system.ball_count; ++b)
+        if (!is_parallel(state[b].w, spin_rate(system, f, b))) return false;
+    for (std::size_t i = 0; i < system.contact_count; ++i) {
+        const LinkedContact& c = system.contacts[i];
+        const LinkedContactForces& at = f.contacts[i];
+        // Two balls that touch turn about one another as soon as they move.
+        if (c.other >= 0) return false;
+        const auto ball = static_cast<std::size_t>(c.ball);
+        const Vec3 turning = c.feature.across * f.acceleration[ball];
+        const Vec3 pull = turning - turning.dot(at.normal) * at.normal;
+        if (at.normal_rate.norm() * c.feature.distance > kSteady * state[ball].v.norm() ||
+            pull.norm() > kSteady * system.gravity.norm())
+            return false;
+        const bool slides = c.mode == CurvedMode::kSliding || c.mode == CurvedMode::kIncipient;
+        if (slides && c.presses && !is_parallel(at.slip, at.slip_rate)) return false;
+    }
+    return true;
+}
+
+double seconds_on(const LinkedContact& c, const CurvedState& s, const Vec3& acceleration,
+                  double horizon) {
+    for (int k = 0; k < c.feature.gate_count; ++k) {
+        const FeatureGate& gate = c.feature.gates[static_cast<std::size_t>(k)];
+        const Polynomial room{{gate.room(s.x), gate.direction.dot(s.v),
+                               0.5 * gate.direction.dot(acceleration), 0, 0}};
+        const Roots out = downward_crossings(room, horizon);
+        if (out.count > 0) horizon = std::min(horizon, out.at[0]);
+    }
+    return horizon;
+}
+
+}  // namespace
+
+std::optional<LinkedPiece> steady_piece(const LinkedBalls& system, const LinkedState& state,
+                                        const LinkedForces& forces, double now, double horizon) {
+    if (!is_steady(system, state, forces)) return {};
+    LinkedPiece piece;
+    piece.curved = false;
+    double seconds = std::min(horizon, kLongest);
+    for (std::size_t i = 0; i < system.contact_count; ++i) {
+        const LinkedContact& c = system.contacts[i];
+        const LinkedContactForces& at = forces.contacts[i];
+        const auto ball = static_cast<std::size_t>(c.ball);
+        seconds = seconds_on(c, state[ball], acceleration(system, forces, ball), seconds);
+        const bool slows = at.slip.dot(at.slip_rate) < 0;
+        if (c.presses && c.mode == CurvedMode::kSliding && slows)
+            seconds = std::min(seconds, at.slip.norm() / at.slip_rate.norm());
+    }
+    piece.seconds = (now + seconds) - now;
+    if (!(piece.seconds > 0)) return {};
+    for (std::size_t b = 0; b < system.ball_count; ++b) {
+        piece.balls[b].acceleration = acceleration(system, forces, b);
+        piece.balls[b].spin_rate = spin_rate(system, forces, b);
+    }
+    return piece;
+}
+
+}  // namespace carom

@@ -1,0 +1,70 @@
+// One ball that stays in contact with one surface where the motion has no closed form: on a sphere,
+// a capsule, an edge or a corner, or with a slip that turns across a slope. Its laws of motion.
+#pragma once
+
+#include "geometry/feature.h"
+#include "sim/contact/contact.h"
+
+namespace carom {
+
+/// The ball's centre keeps its distance from the core of one feature of the surface.
+struct CurvedContact : Feature {
+    double radius = 0.1;          ///< of the ball, m
+    double inertia_factor = 0.4;  ///< k of I = k m r^2
+    double friction = 0;          ///< Coulomb's mu
+    Vec3 gravity = Vec3::Zero();  ///< m/s^2
+};
+
+/// The contact of a ball at `x` [m] that touches `shape`. On the border of two features the motion
+/// `v` [m/s] decides, and gravity where that has no part across the border.
+CurvedContact curved_contact(const SurfaceShape& shape, const Vec3& x, const Vec3& v, double radius,
+                             const Vec3& gravity);
+
+/// What acts at the contact.
+enum class CurvedMode {
+    kSmooth,     ///< no friction
+    kSliding,    ///< friction mu N against the slip
+    kIncipient,  ///< the same while the slip is still so small that it follows what drives it
+    kRolling     ///< no slip; friction as much as that takes
+};
+
+/// Centre, velocity and spin.
+struct CurvedState {
+    Vec3 x = Vec3::Zero();
+    Vec3 v = Vec3::Zero();
+    Vec3 w = Vec3::Zero();
+};
+
+/// Accelerations and forces [m/s^2: per mass of the ball].
+struct CurvedForces {
+    Vec3 normal = Vec3::UnitZ();
+    Vec3 normal_rate = Vec3::Zero();  ///< 1/s
+    double push = 0;                  ///< along the normal; the contact holds while it is > 0
+    Vec3 drive = Vec3::Zero();        ///< b: what would change the slip if there were no friction
+    Vec3 slip = Vec3::Zero();         ///< m/s
+    Vec3 friction = Vec3::Zero();
+    Vec3 acceleration = Vec3::Zero();
+    Vec3 spin_rate = Vec3::Zero();  ///< rad/s^2
+};
+
+/// With n' the rate of the normal, and f the friction per mass at the arm -R n:
+///   v' = g + N n + f,  w' = -(n x f) / (k R),  N = -g.n - v.n',
+/// so the slip s = v - R w x n changes along the surface by
+///   s' = b + (1 + 1/k) f,  b = g_t - R (w.n) n x n'.
+/// Sliding: f = -mu N s/|s|. Rolling keeps s = 0: f = -k/(1+k) b, which Coulomb allows up to mu N.
+/// (E. J. Routh, Dynamics of a System of Rigid Bodies, Advanced Part, 1905, ch. V; the term with
+/// w.n turns a ball that rolls obliquely on a cylinder.)
+CurvedForces curved_forces(const CurvedContact& contact, CurvedMode mode, const CurvedState& state);
+
+/// Below this push [m/s^2] the ball has left, a negative trifle: its path must part from the
+/// surface by more than the rounding of its place, which is what the next time of impact sees.
+double least_push(const CurvedContact& contact, const Vec3& x);
+
+/// mu N - |f| of rolling: it rolls while this is >= 0.
+double grip_left(const CurvedContact& contact, const CurvedForces& forces);
+
+/// Puts rounding right: the centre on its distance, the velocity along the surface and, when it
+/// rolls, no slip.
+void project(const CurvedContact& contact, CurvedMode mode, CurvedState& state);
+
+}  // namespace carom

@@ -1,0 +1,42 @@
+#include "sim/record/model_features.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace carom {
+
+std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pairs) {
+    std::map<std::string, Effect> effects;
+    const double g = scene.simulation.gravity.norm();
+    effects["gravity"] = g > 0 ? Effect{true, fmt::format("{} m/s^2", g)}
+                               : Effect{false, "simulation.gravity is [0, 0, 0]"};
+
+    const std::size_t surfaces = scene.surfaces.size();
+    effects["surfaces"] = surfaces > 0 ? Effect{true, fmt::format("the scene has {}", surfaces)}
+                                       : Effect{false, "the scene has none"};
+
+    const std::size_t balls = scene.balls.size();
+    effects["pairs"] =
+        balls > 1 ? Effect{true, fmt::format("the scene has {} balls, which can meet", balls)}
+                  : Effect{false, "one ball at most: nothing to meet but surfaces"};
+
+    const bool named = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                   [](const Material& m) { return m.friction.has_value(); }) ||
+                       std::any_of(scene.pairs.begin(), scene.pairs.end(),
+                                   [](const PairRule& r) { return r.friction.has_value(); });
+    const bool friction = pairs.any_friction();
+    effects["friction"] =
+        friction ? Effect{true, "materials that can meet have it"}
+        : named  ? Effect{false, "no two materials that can meet both have it: no friction rows"}
+                 : Effect{false, "no material and no pair names friction: no friction rows"};
+
+    const bool spins = std::any_of(scene.balls.begin(), scene.balls.end(),
+                                   [](const Ball& b) { return !b.spin.isZero(0); });
+    effects["spin"] = friction ? Effect{true, "friction turns the balls"}
+                      : spins  ? Effect{true, "a ball spins at the start; nothing changes its spin"}
+                               : Effect{false, "no ball spins at the start, no friction turns one"};
+    return effects;
+}
+
+}  // namespace carom

@@ -1,0 +1,16 @@
+// What of the model a scene needs, for --stats.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "scene/scene.h"
+#include "sim/contact/restitution.h"
+#include "sim/record/simulation_result.h"
+
+namespace carom {
+
+/// gravity, surfaces, pairs (ball against ball), friction, spin; each with the reason.
+std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pairs);
+
+}  // namespace carom

@@ -1,0 +1,50 @@
+#include "sim/solve/impact_sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/solve/contact_rows.h"
+
+namespace carom {
+
+namespace {
+
+/// Sweeps over all contacts. A chain of n balls needs about n^2 of them a digit.
+constexpr int kMostSweeps = 20'000;
+
+/// A sweep that changes no velocity by more than this, relative to the largest approach, ends it.
+constexpr double kConverged = 4 * std::numeric_limits<double>::epsilon();
+
+/// Below this changes may be roundings, larger where masses are far apart, that go round in
+/// circles: then so many sweeps without a smaller one end it.
+constexpr double kRoundings = 1e-12;
+constexpr int kMostIdle = 16;
+
+}  // namespace
+
+void solve_by_sweeps(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
+    std::vector<ContactRow> rows;
+    rows.reserve(contacts.size());
+    double scale = 0;
+    for (const Contact& c : contacts) {
+        rows.emplace_back(bodies, c, c.restitution * std::max(c.approach_speed, 0.0));
+        scale = std::max(scale, std::abs(c.approach_speed));
+    }
+    double least = std::numeric_limits<double>::infinity();
+    int idle = 0;
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+        double moved = 0;
+        for (ContactRow& row : rows) moved = std::max(moved, row.relax());
+        idle = moved < least ? 0 : idle + 1;
+        least = std::min(least, moved);
+        if (moved <= kConverged * scale) break;
+        if (moved <= kRoundings * scale && idle > kMostIdle) break;
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        contacts[i].impulse = rows[i].normal;
+        contacts[i].tangential_impulse = rows[i].tangential.norm();
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,172 @@
+#include "sim/world/exact_world.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "geometry/nearest.h"
+#include "sim/collide/time_of_impact_high_degree.h"
+
+namespace carom {
+
+namespace {
+
+/// Places are made of a few operations on numbers of their size.
+constexpr double kTouchRounding = 64 * std::numeric_limits<double>::epsilon();
+
+/// Beyond its radius a ball is looked at as far as this part of it: well above the gap of a link
+/// (island_step.h).
+constexpr double kReach = 1e-5;
+
+/// Up to this many materials all pairs of them are computed at the start.
+constexpr std::size_t kCachedMaterials = 256;
+
+}  // namespace
+
+ExactWorld::ExactWorld(const Scene& s) : scene(s), pairs(s), balls(s.balls.size()) {
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        const Ball& body = s.balls[i];
+        balls[i].radius = body.radius;
+        balls[i].mass = body.mass;
+        balls[i].inertia_factor = body.inertia_factor;
+        balls[i].material = body.material;
+        Piece& piece = balls[i].piece;
+        piece.position = body.position;
+        piece.velocity = body.velocity;
+        piece.acceleration = s.simulation.gravity;
+        piece.spin = body.spin;
+    }
+    for (int i = 0; i < static_cast<int>(s.surfaces.size()); ++i)
+        (is_unbounded(surface(i).shape) ? planes : bounded_surfaces).push_back(i);
+    const std::size_t materials = s.materials.size();
+    if (materials <= kCachedMaterials)
+        for (std::size_t a = 0; a < materials; ++a)
+            for (std::size_t b = 0; b < materials; ++b)
+                pair_cache_.push_back(pairs.at(static_cast<int>(a), static_cast<int>(b)));
+}
+
+PairProperties ExactWorld::pair(int material_a, int material_b) const {
+    if (pair_cache_.empty()) return pairs.at(material_a, material_b);
+    return pair_cache_[static_cast<std::size_t>(material_a) * scene.materials.size() +
+                       static_cast<std::size_t>(material_b)];
+}
+
+void ExactWorld::build_grid(double t) {
+    std::vector<Vec3> positions;
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        positions.push_back(position(static_cast<int>(i), t));
+        radii.push_back(scene.balls[i].radius);
+    }
+    grid.emplace(positions, radii);
+    for (NearList& list : lists_) list.ball = -1;
+}
+
+const std::vector<int>& ExactWorld::near(int ball_index) const {
+    for (const NearList& list : lists_)
+        if (list.ball == ball_index && list.moves == grid->moves()) return list.others;
+    NearList& list = next_list();
+    list.ball = ball_index;
+    list.moves = grid->moves();
+    list.others.clear();
+    grid->for_each_near(ball_index, [&](int other) { add_to(list, other); });
+    return list.others;
+}
+
+void ExactWorld::build_surface_tree() {
+    surface_tree.emplace(scene.surfaces);
+    clear_.resize(balls.size());
+}
+
+double ExactWorld::reach(int i) const { return (1 + kReach) * ball(i).radius + place_rounding; }
+
+/// The planes into what is near of the other surfaces, both ascending.
+void ExactWorld::merge_planes(std::vector<int>& found) const {
+    const auto others = static_cast<std::ptrdiff_t>(found.size());
+    found.insert(found.end(), planes.begin(), planes.end());
+    if (others > 0) std::sort(found.begin(), found.end());
+}
+
+void ExactWorld::find_surfaces_ahead(int i, double t, double seconds,
+                                     std::vector<int>& found) const {
+    const Piece& piece = ball(i).piece;
+    if (!piece.curve) {
+        const Path ahead = path(i, t);
+        const Box3 box = SurfaceTree::widened(bounds_of(ahead, 0, seconds), reach(i));
+        Box3& clear = clear_[static_cast<std::size_t>(i)];
+        if (clear.contains(box)) return;
+        if (surface_tree->is_clear(box))
+            clear = box;
+        else
+            surface_tree->find_along(ahead, seconds, reach(i), found);
+        return;
+    }
+    const CurvedPath curved = curved_path(piece, t, seconds);
+    surface_tree->find_near(Box3(curved.c[0]), reach(i) + curved.reach(), found);
+}
+
+Vec3 ExactWorld::position(int i, double t) const { return ball(i).piece.position_at(t); }
+
+Velocities ExactWorld::velocities(int i, double t) const {
+    const Piece& p = ball(i).piece;
+    return {p.velocity_at(t), p.spin_at(t)};
+}
+
+Path ExactWorld::path(int i, double t) const {
+    const Piece& p = ball(i).piece;
+    return {p.position_at(t), p.velocity_at(t), p.acceleration_at(t)};
+}
+
+std::string ExactWorld::name(const Partner& partner) const {
+    return partner.is_surface ? surface(partner.index).name : body(partner.index).name;
+}
+
+double ExactWorld::touch_tolerance(const Vec3& a, const Vec3& b, double size) const {
+    return place_rounding +
+           kTouchRounding * (a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() + size);
+}
+
+Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
+    if (partner.is_surface) return surface_contact(i, partner.index, position(i, t));
+    Contact c;
+    c.ball = std::min(i, partner.index);
+    c.other = {false, std::max(i, partner.index)};
+    const Vec3 a = position(c.ball, t), b = position(c.other.index, t);
+    const double distance = (a - b).norm();
+    const double sum = ball(c.ball).radius + ball(c.other.index).radius;
+    c.normal = distance > 0 ? Vec3((a - b) / distance) : Vec3::UnitZ();
+    c.depth = sum - distance;
+    c.arm_other = ball(c.other.index).radius * c.normal;
+    c.point = b + c.arm_other;
+    set_pair(c, ball(c.other.index).material);
+    return c;
+}
+
+Contact ExactWorld::surface_contact(int i, int index, const Vec3& x) const {
+    const Nearest nearest = nearest_on(surface(index).shape, x, ball(i).radius);
+    Contact c;
+    c.ball = i;
+    c.other = {true, index};
+    c.normal = nearest.normal;
+    c.depth = -nearest.gap;
+    c.point = nearest.point;
+    set_pair(c, surface(index).material);
+    return c;
+}
+
+/// What follows from the ball and the material of what it meets.
+void ExactWorld::set_pair(Contact& c, int material) const {
+    c.arm = -ball(c.ball).radius * c.normal;
+    const PairProperties both = pair(ball(c.ball).material, material);
+    c.restitution = both.restitution;
+    c.friction = both.friction;
+}
+
+bool ExactWorld::touches(const Contact& c, double t) const {
+    const Vec3 a = position(c.ball, t);
+    if (c.other.is_surface) return -c.depth <= touch_tolerance(a, c.point, ball(c.ball).radius);
+    const double size = ball(c.ball).radius + ball(c.other.index).radius;
+    return -c.depth <= touch_tolerance(a, position(c.other.index, t), size);
+}
+
+}  // namespace carom

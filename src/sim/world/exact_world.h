@@ -1,0 +1,200 @@
+// The balls of the method `exact` between two events: each has its own clock and its current piece.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motion/motion.h"
+#include "scene/scene.h"
+#include "sim/collide/neighbour_grid.h"
+#include "sim/collide/surface_tree.h"
+#include "sim/collide/time_of_impact.h"
+#include "sim/contact/contact.h"
+#include "sim/contact/restitution.h"
+
+namespace carom {
+
+/// A ball, from piece.start on. What its neighbours ask for stands first, in two lines of cache.
+struct alignas(64) ExactBall {
+    std::uint64_t stamp = 0;  ///< changes with every new piece: predictions know what they rest on
+    double radius = 0;        ///< m
+    /// m/s: relative speeds below this are what its last impacts left of a zero.
+    double rounding_speed = 0;
+    int surface = -1;            ///< of its lasting contact, -1 in flight
+    bool leaves_at_end = false;  ///< the phase ends because the face does
+    bool stepped = false;        ///< in an island that ODE steps; phase_end is the step's end
+    bool asleep = false;         ///< in such an island, which rests until something touches it
+    bool crowded = false;        ///< a member of the crowd (pile.h), asleep or not
+    Piece piece;
+    double mass = 0;            ///< kg
+    double inertia_factor = 0;  ///< as in Ball
+    int material = 0;
+    EventKind kind = EventKind::kLeave;  ///< of the lasting contact: kSlide, kRoll or kRest
+    Vec3 normal = Vec3::UnitZ();         ///< of the lasting contact
+    double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
+    double impacts_since = 0;  ///< s: its recent impacts are counted from here
+    int recent_impacts = 0;
+    std::uint64_t resolved = 0;  ///< the last instant at which an impact of it was resolved
+    /// ODE steps its island: its gaps and speeds are known to what a step can tell.
+    bool coarse = false;
+    int steps = 0;       ///< taken since it joined an island
+    int calm_steps = 0;  ///< on end, in which it hardly moved
+    int slow_steps = 0;  ///< on end, in which it moved, but slowly
+    /// s, when the row of the lasting contact is due: at the end of its bouncing series.
+    double row_due = std::numeric_limits<double>::infinity();
+};
+
+/// What an island holds; only such a ball has links.
+inline bool is_stepped(const ExactBall& b) { return b.stepped || b.asleep; }
+
+/// Scene, balls and the geometry of who touches whom.
+class ExactWorld {
+  public:
+    explicit ExactWorld(const Scene& scene);
+
+    const Scene& scene;
+    PairTable pairs;
+    std::vector<ExactBall> balls;
+
+    ExactBall& ball(int i) { return balls[static_cast<std::size_t>(i)]; }
+    const ExactBall& ball(int i) const { return balls[static_cast<std::size_t>(i)]; }
+    const Ball& body(int i) const { return scene.balls[static_cast<std::size_t>(i)]; }
+    const Surface& surface(int i) const { return scene.surfaces[static_cast<std::size_t>(i)]; }
+    BallState state(int i, double t) const { return ball(i).piece.at(t); }
+    /// The same without the orientation, which is what costs time.
+    Vec3 position(int i, double t) const;
+    Velocities velocities(int i, double t) const;
+    /// The path of a ball's centre from t on.
+    Path path(int i, double t) const;
+    std::string name(const Partner& partner) const;
+
+    double place_rounding = 0;  ///< m: of the places that the scene came with (ExactOptions)
+    /// Two things touch when their gap is not above the rounding of their places.
+    double touch_tolerance(const Vec3& a, const Vec3& b, double size) const;
+    /// The contact of ball i with a partner at t, as geometry has it; of two balls, the scene's
+    /// first one is `ball`.
+    Contact contact_at(int i, const Partner& partner, double t) const;
+    /// The same with a surface, for ball i with its centre at x [m].
+    Contact surface_contact(int i, int surface, const Vec3& x) const;
+    bool touches(const Contact& contact, double t) const;
+    PairProperties pair(int material_a, int material_b) const;
+
+    /// Whether balls have to look at each other at all, and why (not).
+    bool balls_can_meet = true;
+    /// Empty while balls are few: then each looks at all others.
+    std::optional<NeighbourGrid> grid;
+    void build_grid(double t);
+
+    /// Calls f(other) for every ball that could touch `ball`, and maybe for more. An impact asks
+    /// twice for the balls near it: once who else is touched, then what comes next.
+    template <class F>
+    void for_each_near(int ball_index, F&& f) const {
+        if (!balls_can_meet) return;
+        if (grid) {
+            for (const int other : near(ball_index)) f(other);
+            return;
+        }
+        for (int other = 0; other < static_cast<int>(balls.size()); ++other)
+            if (other != ball_index) f(other);
+    }
+
+    /// The same for the layer of cells that a ball has come to.
+    template <class F>
+    void for_each_in_layer(int ball_index, int axis, std::int64_t side, F&& f) const {
+        NearList& list = next_list();
+        list.ball = -1;
+        list.others.clear();
+        grid->for_each_in_layer(ball_index, axis, side, [&](int other) { add_to(list, other); });
+        for (const int other : list.others) f(other);
+    }
+
+    /// Has a ball's memory on its way when it is looked at a little later.
+    void fetch(int i) const {
+        const auto* bytes = reinterpret_cast<const char*>(&ball(i));
+        __builtin_prefetch(bytes);
+        __builtin_prefetch(bytes + 64);
+    }
+
+    std::vector<int> planes, bounded_surfaces;  ///< the surfaces of both kinds, ascending
+    /// Empty while bounded surfaces are few: then a ball looks at all of them.
+    std::optional<SurfaceTree> surface_tree;
+
+    /// m: what is farther than this from a ball's centre is no partner of it now.
+    double reach(int i) const;
+    void build_surface_tree();
+
+    /// Calls f(surface), ascending, for every surface within `reach` of x, where ball i is now, and
+    /// maybe for more.
+    template <class F>
+    void for_each_surface_near(int i, const Vec3& x, double reach, F&& f) const {
+        if (!surface_tree) {
+            for (int s = 0; s < static_cast<int>(scene.surfaces.size()); ++s) f(s);
+            return;
+        }
+        std::vector<int>& found = next_surface_list();
+        const Box3 box = SurfaceTree::widened(Box3(x), reach);
+        if (!clear_[static_cast<std::size_t>(i)].contains(box))
+            surface_tree->find_near(Box3(x), reach, found);
+        merge_planes(found);
+        for (const int s : found) f(s);
+    }
+    /// The same for the bounded ones that ball i may come to from t on, in so many seconds on its
+    /// piece.
+    template <class F>
+    void for_each_surface_ahead(int i, double t, double seconds, F&& f) const {
+        if (!surface_tree) {
+            for (const int s : bounded_surfaces) f(s);
+            return;
+        }
+        std::vector<int>& found = next_surface_list();
+        find_surfaces_ahead(i, t, seconds, found);
+        for (const int s : found) f(s);
+    }
+
+  private:
+    std::vector<int>& next_surface_list() const {
+        at_surface_list_ = (at_surface_list_ + 1) % surface_lists_.size();
+        surface_lists_[at_surface_list_].clear();
+        return surface_lists_[at_surface_list_];
+    }
+    void merge_planes(std::vector<int>& found) const;
+    void find_surfaces_ahead(int i, double t, double seconds, std::vector<int>& found) const;
+
+    struct NearList {
+        int ball = -1;
+        std::int64_t moves = 0;  ///< of the grid, when it was made
+        std::vector<int> others;
+    };
+
+    /// Where balls are many, most of an event is waiting for memory: it is on its way when the
+    /// first ball of a list is looked at.
+    void add_to(NearList& list, int other) const {
+        fetch(other);
+        list.others.push_back(other);
+    }
+    NearList& next_list() const {
+        at_list_ = (at_list_ + 1) % lists_.size();
+        return lists_[at_list_];
+    }
+    const std::vector<int>& near(int ball_index) const;
+    void set_pair(Contact& contact, int material) const;
+
+    mutable std::array<NearList, 4> lists_;  ///< the last ones, in turn
+    mutable std::size_t at_list_ = 0;
+    /// Per ball, a box where no bounded surface is: that of its last flight that met none. The next
+    /// one, and what it touches in the end, most often lies inside.
+    mutable std::vector<Box3> clear_;
+    mutable std::array<std::vector<int>, 4> surface_lists_;  ///< of walks inside one another
+    mutable std::size_t at_surface_list_ = 0;
+    std::vector<PairProperties> pair_cache_;  ///< materials x materials, empty if they are many
+};
+
+/// Relative speed along the normal at which two touching bodies count as neither approaching nor
+/// separating: rounding of their velocities.
+inline constexpr double kStillFraction = 1e-13;
+
+}  // namespace carom

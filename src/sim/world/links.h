@@ -1,0 +1,59 @@
+// Which pairs of bodies are in a lasting contact that ODE steps.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "motion/motion.h"
+#include "sim/contact/contact.h"
+
+namespace carom {
+
+/// A lasting contact as one of its balls sees it.
+struct Link {
+    Partner partner;
+    Vec3 push =
+        Vec3::Zero();  ///< impulse of the last step on the scene's first ball of the two, N s
+    bool slip_begins = false;  ///< integrated, and its slip is incipient
+    // What the rows of EVENTS.csv say about it, kept with the ball that the scene names first.
+    Contact last;  ///< as it was when it last pressed
+    bool pressed = false;
+    double row_due = 0;       ///< s: the end of its bouncing series, before which nothing is stated
+    bool from_start = false;  ///< it exists at time 0: its first kind is no news
+    EventKind stated = EventKind::kLeave;
+    EventKind candidate = EventKind::kLeave;
+    double candidate_since = 0;  ///< s
+    int candidate_steps = 0;
+};
+
+/// Instants that differ by so many roundings are one.
+inline constexpr double kSameInstant = 16 * std::numeric_limits<double>::epsilon();
+
+/// Whether the bounces before a contact are not over at `now` [s].
+inline bool row_waits(const Link& link, double now) {
+    return link.row_due > now * (1 + kSameInstant);
+}
+
+/// Per ball, its links. A link between two balls stands with both of them.
+class Links {
+  public:
+    explicit Links(std::size_t balls) : of_(balls) {}
+
+    std::vector<Link>& of(int ball) { return of_[static_cast<std::size_t>(ball)]; }
+    const std::vector<Link>& of(int ball) const { return of_[static_cast<std::size_t>(ball)]; }
+    bool linked(int ball, const Partner& partner) const { return find(ball, partner) != nullptr; }
+    const Link* find(int ball, const Partner& partner) const {
+        const auto& links = of(ball);
+        const auto found = std::find_if(links.begin(), links.end(), [&partner](const Link& link) {
+            return link.partner == partner;
+        });
+        return found == links.end() ? nullptr : &*found;
+    }
+
+  private:
+    std::vector<std::vector<Link>> of_;
+};
+
+}  // namespace carom

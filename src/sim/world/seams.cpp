@@ -1,0 +1,181 @@
+#include "sim/world/seams.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/feature.h"
+#include "geometry/feature_side.h"
+#include "geometry/nearest.h"
+
+namespace carom {
+
+namespace {
+
+/// Heights of two surfaces over one another are known to a few roundings of each place.
+constexpr double kPlaces = 4;
+
+/// Normals of flat parts that differ by less [rad] are one: each went through a few roundings.
+constexpr double kOnePlane = 1e-14;
+
+/// Demands that differ by less, as a fraction of their size, are equal.
+constexpr double kEqual = 1e-9;
+
+/// Halvings of the time at which a path is looked at for whether it keeps out of a surface.
+constexpr int kLooks = 40;
+
+double place_rounding(const ExactWorld& world, const Contact& c, const Vec3& x) {
+    return kPlaces * world.touch_tolerance(x, c.point, world.ball(c.ball).radius);
+}
+
+Vec3 centre(const ExactWorld& world, const Contact& c) {
+    return c.point + (world.ball(c.ball).radius - c.depth) * c.normal;
+}
+
+/// 1 for a face or a plane, 2 for what is round along a line, 3 around a point.
+double roundness(const CurvedContact& feature) { return feature.across.trace(); }
+
+bool is_flat(const CurvedContact& feature) { return roundness(feature) < 1.5; }
+
+CurvedContact feature_at(const ExactWorld& world, const Contact& c, const Vec3& x, const Vec3& v) {
+    return curved_contact(world.surface(c.other.index).shape, x, v, world.ball(c.ball).radius,
+                          world.scene.simulation.gravity);
+}
+
+/// The least acceleration along the normal that keeps a centre out of a feature [m/s^2].
+double demand_of(const CurvedContact& feature, const Vec3& x, const Vec3& v) {
+    const Vec3 q = feature.across * (x - feature.origin), moved = feature.across * v;
+    const double distance = q.norm();
+    const Vec3 n = q / distance;
+    return -(moved - n.dot(moved) * n).squaredNorm() / distance;
+}
+
+/// Where the motion leads to, as far away as a border may be off by rounding: a bump of that height
+/// is so long.
+Vec3 place_ahead(const ExactWorld& world, const Contact& c, const Vec3& x, const Vec3& v) {
+    Vec3 way = v;
+    if (way.isZero(0)) way = tangential_part(world.scene.simulation.gravity, c.normal);
+    if (way.isZero(0)) return x;
+    const double radius = world.ball(c.ball).radius;
+    return x + 2 * std::sqrt(2 * radius * place_rounding(world, c, x)) * way.normalized();
+}
+
+/// Whether feature `a` holds rather than `b`: the one that bends away less, then the flatter one.
+/// `size` [m/s^2]: of the accelerations at hand.
+bool holds_rather(const CurvedContact& a, const CurvedContact& b, const Vec3& x, const Vec3& v,
+                  double size) {
+    const double difference = demand_of(a, x, v) - demand_of(b, x, v);
+    if (std::abs(difference) > kEqual * size) return difference > 0;
+    return roundness(a) < roundness(b) - 0.5;
+}
+
+double size_of_demands(const ExactWorld& world, const Contact& c, const Vec3& v) {
+    return v.squaredNorm() / world.ball(c.ball).radius + world.scene.simulation.gravity.norm();
+}
+
+/// The contact with a feature instead of the nearest place of its surface.
+Contact contact_with(const ExactWorld& world, Contact c, const CurvedContact& feature,
+                     const Vec3& x) {
+    const double radius = world.ball(c.ball).radius;
+    c.normal = feature.normal_at(x);
+    c.depth = feature.distance - (feature.across * (x - feature.origin)).norm();
+    c.point = x - (radius - c.depth) * c.normal;
+    c.arm = -radius * c.normal;
+    return c;
+}
+
+bool is_in_reach(const ExactWorld& world, const Contact& c, const Vec3& x) {
+    return -c.depth <= place_rounding(world, c, x);
+}
+
+}  // namespace
+
+bool same_place(const ExactWorld& world, const Contact& a, const Contact& b) {
+    const double turned = (a.normal - b.normal).norm();
+    if (turned <= kOnePlane) return true;
+    const Vec3 x = centre(world, a);
+    const double rounding = std::max(place_rounding(world, a, x), place_rounding(world, b, x));
+    if (0.5 * world.ball(a.ball).radius * turned * turned > rounding) return false;
+    // Two faces that meet at an angle, however small, are two places.
+    const CurvedContact of_a = feature_at(world, a, x, Vec3::Zero());
+    const CurvedContact of_b = feature_at(world, b, x, Vec3::Zero());
+    return !(is_flat(of_a) && is_flat(of_b)) ||
+           (of_a.normal_at(x) - of_b.normal_at(x)).norm() <= kOnePlane;
+}
+
+bool holds_before(const ExactWorld& world, const Contact& a, const Contact& b, const Vec3& x,
+                  const Velocities& velocities) {
+    const double still = kStillFraction * velocities.linear.norm();
+    const bool a_comes = velocities.linear.dot(a.normal) < -still;
+    const bool b_comes = velocities.linear.dot(b.normal) < -still;
+    if (a_comes != b_comes) return a_comes;
+    const Vec3 v = tangential_part(velocities.linear, a.normal);
+    const Vec3 y = place_ahead(world, a, x, v);
+    const CurvedContact of_a = feature_at(world, a, y, v), of_b = feature_at(world, b, y, v);
+    const double size = size_of_demands(world, a, v);
+    if (holds_rather(of_a, of_b, y, v, size)) return true;
+    if (holds_rather(of_b, of_a, y, v, size)) return false;
+    // Not by the order in the scene, as far as it makes a difference.
+    if (a.restitution != b.restitution) return a.restitution < b.restitution;
+    if (a.friction != b.friction) return a.friction > b.friction;
+    return a.other.index < b.other.index;
+}
+
+std::optional<SurfaceContact> goes_on_with(const ExactWorld& world, const Contact& held,
+                                           const Vec3& x, const Velocities& velocities) {
+    const Vec3 v = tangential_part(velocities.linear, held.normal);
+    const Vec3 y = place_ahead(world, held, x, v);
+    const double size = size_of_demands(world, held, v);
+    CurvedContact best = feature_at(world, held, y, v);
+    std::optional<SurfaceContact> found;
+    const auto look = [&](int s) {
+        if (s == held.other.index) return;
+        const Contact c = world.surface_contact(held.ball, s, x);
+        if (!is_in_reach(world, c, x) || !same_place(world, held, c)) return;
+        const CurvedContact feature = feature_at(world, c, y, v);
+        if (!holds_rather(feature, best, y, v, size)) return;
+        best = feature;
+        found = SurfaceContact{contact_with(world, c, feature, x), feature};
+    };
+    world.for_each_surface_near(held.ball, x, world.reach(held.ball), look);
+    return found;
+}
+
+bool keeps_out(const ExactWorld& world, int ball, int surface, double from, double until) {
+    const Piece& piece = world.ball(ball).piece;
+    const double radius = world.ball(ball).radius;
+    const SurfaceShape& shape = world.surface(surface).shape;
+    const auto is_out = [&](double t) {
+        const Vec3 x = piece.position_at(t);
+        const Nearest nearest = nearest_on(shape, x, radius);
+        return nearest.gap >= -kPlaces * world.touch_tolerance(x, nearest.point, radius);
+    };
+    if (!is_out(from)) return false;
+    double seconds = until - from;
+    for (int i = 0; i < kLooks && seconds > 0; ++i, seconds *= 0.5)
+        if (!is_out(from + seconds)) return false;
+    return true;
+}
+
+void add_borders_of_others(const ExactWorld& world, const Contact& held, const CurvedState& at,
+                           CurvedContact& feature) {
+    const double border = kBorder * (at.x.cwiseAbs().maxCoeff() + world.ball(held.ball).radius);
+    const auto look = [&](int s) {
+        if (s == held.other.index) return;
+        const Contact c = world.surface_contact(held.ball, s, at.x);
+        if (!is_in_reach(world, c, at.x) || !same_place(world, held, c)) return;
+        const CurvedContact other = feature_at(world, c, at.x, at.v);
+        for (int i = 0; i < other.gate_count && feature.gate_count < kMostGates; ++i) {
+            const FeatureGate& gate = other.gates[static_cast<std::size_t>(i)];
+            // Where the ball is on that border already, it is a seam between the two.
+            if (gate.room(at.x) > border) feature.add_gate(gate.direction, gate.offset);
+        }
+    };
+    world.for_each_surface_near(held.ball, at.x, world.reach(held.ball), look);
+    // A ball that goes along a border is not beyond it by what rounding makes of its place.
+    for (int i = 0; i < feature.gate_count; ++i) {
+        FeatureGate& gate = feature.gates[static_cast<std::size_t>(i)];
+        if (gate.room(at.x) <= border) gate.offset -= 2 * border;
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,63 @@
+// Bounds of shapes, and shapes seen from elsewhere.
+#include "geometry/bounds.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/nearest.h"
+#include "geometry/translation.h"
+#include "shapes.h"
+
+namespace carom {
+namespace {
+
+TEST(Bounds, APlaneHasNone) {
+    EXPECT_TRUE(bounds_of(PlaneShape{}).isEmpty());
+    EXPECT_TRUE(is_unbounded(PlaneShape{}));
+}
+
+/// The support of a shape along an axis, found from far away: there the nearest point is the
+/// outermost one.
+TEST(Bounds, AreAsTightAsTheShape) {
+    constexpr double kFar = 1e8;
+    for (const SurfaceShape& shape : one_of_each()) {
+        if (is_unbounded(shape)) continue;
+        const Box3 bounds = bounds_of(shape);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Vec3 far = kFar * Vec3::Unit(axis);
+            EXPECT_NEAR(bounds.max()[axis], kFar - signed_distance(shape, far), 1e-6)
+                << shape.index();
+            EXPECT_NEAR(bounds.min()[axis], signed_distance(shape, -far) - kFar, 1e-6)
+                << shape.index();
+        }
+    }
+}
+
+TEST(Translation, KeepsDistances) {
+    const Vec3 origin(3, -2, 1);
+    for (const SurfaceShape& shape : one_of_each())
+        for (const Vec3& p : places())
+            EXPECT_NEAR(signed_distance(seen_from(shape, origin), p - origin),
+                        signed_distance(shape, p), 2e-15)
+                << shape.index();
+}
+
+/// A plane 1e6 m from the origin: normal . origin and the offset are large, and their difference is
+/// known to its own last digits.
+TEST(Translation, APlaneFarAwayLosesOneRounding) {
+    const Vec3 normal = Vec3(3, 4, 12) / 13, origin(1e6, -7e5, 3e5);
+    // 3e6 - 2.8e6 + 3.6e6 = 3.8e6, over 13; and 0.25 m above it.
+    const long double exact = static_cast<long double>(normal.x()) * 1e6L -
+                              static_cast<long double>(normal.y()) * 7e5L +
+                              static_cast<long double>(normal.z()) * 3e5L;
+    const double offset = static_cast<double>(exact) + 0.25;
+    const PlaneShape seen = std::get<PlaneShape>(seen_from(PlaneShape{normal, offset}, origin));
+    EXPECT_NEAR(seen.offset_m, static_cast<double>(offset - exact), 1e-15);
+}
+
+TEST(Shapes, AreEqualWhereTheirNumbersAre) {
+    for (const SurfaceShape& a : one_of_each())
+        for (const SurfaceShape& b : one_of_each()) EXPECT_EQ(a == b, a.index() == b.index());
+}
+
+}  // namespace
+}  // namespace carom

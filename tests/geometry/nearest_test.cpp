@@ -1,0 +1,74 @@
+// The nearest point of each shape, by closed forms and by what every nearest point is.
+#include "geometry/nearest.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "shapes.h"
+
+namespace carom {
+namespace {
+
+constexpr double kRounding = 1e-14;
+
+TEST(Nearest, ABoxHasFacesEdgesAndCorners) {
+    const BoxShape box{Vec3::Zero(), {2, 4, 6}, Quat::Identity()};
+    EXPECT_NEAR(nearest_on(box, {5, 0, 0}, 0.5).gap, 3.5, kRounding);      // a face
+    EXPECT_NEAR(nearest_on(box, {4, 6, 0}, 0.5).gap, 5 - 0.5, kRounding);  // an edge: 3-4-5
+    EXPECT_NEAR(nearest_on(box, {3, 4, 4}, 0.5).gap, 3 - 0.5, kRounding);  // a corner: 2-2-1
+    EXPECT_LT((nearest_on(box, {4, 6, 0}, 0.5).normal - Vec3(0.6, 0.8, 0)).norm(), kRounding);
+    EXPECT_EQ(nearest_on(box, {3, 4, 4}, 0).point, Vec3(1, 2, 3));
+}
+
+TEST(Nearest, InsideABoxTheNearestFaceCounts) {
+    const BoxShape box{Vec3::Zero(), {2, 4, 6}, Quat::Identity()};
+    const Nearest inside = nearest_on(box, {-0.75, 1, 0}, 0.5);
+    EXPECT_NEAR(inside.gap, -0.25 - 0.5, kRounding);
+    EXPECT_EQ(inside.normal, Vec3(-1, 0, 0));
+    EXPECT_EQ(inside.point, Vec3(-1, 1, 0));
+}
+
+TEST(Nearest, OnTheCoreOfWhatIsRoundEveryDirectionIsAsGood) {
+    EXPECT_EQ(nearest_on(SphereShape{{1, 2, 3}, 0.5}, {1, 2, 3}, 0.1).normal, Vec3::UnitZ());
+    EXPECT_NEAR(nearest_on(CapsuleShape{{0, 0, 0}, {2, 0, 0}, 0.5}, {1, 0, 0}, 0.1).gap, -0.6,
+                kRounding);
+}
+
+TEST(Nearest, TurningAndMovingShapeAndPointChangesNoDistance) {
+    const BoxShape box{Vec3::Zero(), {2, 4, 6}, Quat::Identity()};
+    const Vec3 move(3, -1, 2);
+    const BoxShape turned{kTurned * box.center + move, box.size, kTurned};
+    for (const Vec3& p : places())
+        EXPECT_NEAR(signed_distance(turned, kTurned * p + move), signed_distance(box, p), kRounding)
+            << p.transpose();
+}
+
+/// The point is on the shape, the normal leads from it to the centre, and the distance is theirs.
+TEST(Nearest, PointNormalAndGapBelongTogether) {
+    for (const SurfaceShape& shape : one_of_each())
+        for (const Vec3& p : places()) {
+            const Nearest n = nearest_on(shape, p, 0.1);
+            EXPECT_NEAR(n.normal.norm(), 1, kRounding) << shape.index();
+            EXPECT_LT((n.point + (n.gap + 0.1) * n.normal - p).norm(), kRounding) << shape.index();
+            EXPECT_NEAR(signed_distance(shape, n.point), 0, kRounding) << shape.index();
+        }
+}
+
+/// No point of the shape is nearer: tried on points that are at random on its surface.
+TEST(Nearest, NothingOfTheShapeIsNearer) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(-3, 3);
+    for (const SurfaceShape& shape : one_of_each())
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 of =
+                nearest_on(shape, {number(random), number(random), number(random)}, 0).point;
+            for (const Vec3& p : places()) {
+                if (signed_distance(shape, p) < 0) continue;
+                EXPECT_GE((of - p).norm(), signed_distance(shape, p) - kRounding) << shape.index();
+            }
+        }
+}
+
+}  // namespace
+}  // namespace carom
