@@ -1,188 +1,159 @@
 #include "sim/integrate/single_motion.h"
 
-#include <algorithm>
-#include <array>
-#include <boost/numeric/odeint/util/odeint_error.hpp>
 #include <cmath>
 #include <optional>
 
-#include "sim/integrate/piece_end.h"
-#include "sim/math/hermite_fit.h"
+#include "sim/integrate/piece_integrator.h"
 
 namespace carom {
 
 namespace {
 
-namespace odeint = boost::numeric::odeint;
-
-/// A piece turns the normal, and the ball itself, by no more than about this [rad]: there all
-/// series in use converge fast.
-constexpr double kLongestTurn = 0.7;
-
-/// A piece takes away at most this part of the slip that is left: at its end the slip turns ever
-/// faster, so that the pieces must shorten with it.
-constexpr double kSlipPart = 0.6;
-
 /// A slip of this fraction of the ball's speeds is none.
 constexpr double kNoSlip = 1e-12;
 
-/// A piece whose error is too large is shortened, at most so many times.
-constexpr int kMostTries = 60;
-
-/// A course over some seconds as a piece that starts at 0, and how far it may be off.
-struct Fit {
-    Piece piece;
-    CurvedState end;
-    double error = 0;  ///< as a multiple of what is allowed
-};
-
-CurveNode place_node(const Course& course, const Numbers& y) {
-    const CurvedState s = course.state(y);
-    return {part(y, 0), s.v, course.forces(s).acceleration};
-}
-
-CurveNode turn_node(const Course& course, const Numbers& y) {
-    const CurvedState s = course.state(y);
-    const Vec3 u = part(y, 3);
-    return {u, turn_rate(u, s.w), turn_second_rate(u, s.w, course.forces(s).spin_rate)};
-}
-
-Fit fit(const Course& course, double h) {
-    const Numbers begin = course.first();
-    Numbers quarter = begin;
-    course.advance(quarter, 0.25 * h);
-    Numbers middle = quarter;
-    course.advance(middle, 0.25 * h);
-    Numbers end = middle;
-    course.advance(end, 0.5 * h);
-
-    const CurveNode place = place_node(course, begin), turn = turn_node(course, begin);
-    Curve curve;
-    curve.seconds = h;
-    curve.position = curve_through(place, place_node(course, middle), place_node(course, end), h);
-    curve.turn = curve_through(turn, turn_node(course, middle), turn_node(course, end), h);
-    Fit result;
-    result.end = course.state(end);
-    Piece& p = result.piece;
-    p.velocity = place.rate;
-    p.acceleration = place.second;
-    p.spin = turn.rate;
-    p.spin_rate = turn.second;
-    p.curve = OptionalCurve(curve);
-
-    // Between the nodes the error is largest near the quarters.
-    const double s = 0.25 * h, radius = course.contact().radius;
-    const Vec3 u = s * (p.spin + (0.5 * s) * p.spin_rate) + curve_value(curve.turn, 0.25);
-    const double place_error = (p.position_at(s) - part(quarter, 0)).norm();
-    const double turn_error = (u - part(quarter, 3)).norm();
-    const double speed_error = (p.velocity_at(s) - part(quarter, 1)).norm() +
-                               radius * (p.spin_at(s) - part(quarter, 2)).norm();
-    result.error = std::max({place_error / (kCurveError * (radius + part(end, 0).norm())),
-                             turn_error / (kCurveError * (1 + part(end, 3).norm())),
-                             speed_error / (kCurveSpeedError * course.speed())});
-    if (!(result.error >= 0)) result.error = std::numeric_limits<double>::infinity();
-    return result;
-}
-
-/// The longest piece that its laws bear, before its error is known.
-double longest_piece(const Course& course, const CurvedForces& f) {
-    const CurvedContact& c = course.contact();
-    const CurvedState& s = course.start();
-    double h = std::numeric_limits<double>::infinity();
-    h = std::min(h, kLongestTurn * std::sqrt(c.distance / c.gravity.norm()));
-    if (const double turning = f.normal_rate.norm(); turning > 0)
-        h = std::min(h, kLongestTurn / turning);
-    if (const double spin = s.w.norm(); spin > 0) h = std::min(h, kLongestTurn / spin);
-    if (const double b = f.spin_rate.norm(); b > 0)
-        h = std::min(h, std::sqrt(2 * kLongestTurn / b));
-    if (course.mode() != CurvedMode::kSliding) return h;
-    const double slip = f.slip.norm();
-    const double slowing = -f.slip.dot(f.drive + (1 + 1 / c.inertia_factor) * f.friction) / slip;
-    return slowing > 0 ? std::min(h, kSlipPart * slip / slowing) : h;
-}
+/// An incipient slip follows what drives it up to this fraction of the speeds. Its own direction
+/// lags by (turning rate) (slip) / (drive), which leaves 1e-11 of a speed.
+constexpr double kSmallSlip = 1e-7;
 
 /// A slip that friction ends within this time [s] may end at once: gravity does no more than 1e-8
 /// m/s meanwhile. Under large friction a slip that turns is stiff towards its end.
 constexpr double kSudden = 1e-9;
 
+/// The law of one ball on one feature.
+class SingleLaw {
+  public:
+    static constexpr std::size_t kBalls = 1;
+    static constexpr double kStepError = 1e-14;
+    static constexpr int kMostEvaluations = 20'000;
+    static constexpr double kFitError = kCurveError;
+    static constexpr double kFitSpeedError = kCurveSpeedError;
+    using State = std::array<CurvedState, 1>;
+    using Forces = CurvedForces;
+
+    /// `settled`: gates that are shut at the start end nothing there.
+    SingleLaw(const CurvedContact& contact, CurvedMode mode, const CurvedState& start, bool settled)
+        : contact_(contact),
+          mode_(mode),
+          settled_(settled),
+          speed_(start.v.norm() + contact.radius * start.w.norm() +
+                 std::sqrt(contact.gravity.norm() * contact.radius)) {}
+
+    std::size_t ball_count() const { return 1; }
+    double size() const { return contact_.radius; }
+    double speed() const { return speed_; }
+    CurvedForces forces(const State& s) const { return curved_forces(contact_, mode_, s[0]); }
+    const Vec3& acceleration(const CurvedForces& f, std::size_t) const { return f.acceleration; }
+    const Vec3& spin_rate(const CurvedForces& f, std::size_t) const { return f.spin_rate; }
+
+    int gate_count() const {
+        const int own = mode_ == CurvedMode::kRolling ? 1 : mode_ == CurvedMode::kIncipient ? 2 : 0;
+        return 1 + contact_.gate_count + own;
+    }
+    CurvedEnd end(int i) const {
+        if (i == 0) return CurvedEnd::kLiftOff;
+        if (i <= contact_.gate_count) return CurvedEnd::kFeature;
+        if (mode_ == CurvedMode::kRolling) return CurvedEnd::kGripEnds;
+        return i == contact_.gate_count + 1 ? CurvedEnd::kSlipGrows : CurvedEnd::kSlipEnds;
+    }
+    double gate(int i, const State& s, const CurvedForces& f) const {
+        switch (end(i)) {
+            case CurvedEnd::kLiftOff:
+                return f.push - least_push(contact_, s[0].x);
+            case CurvedEnd::kFeature:
+                return contact_.gates[static_cast<std::size_t>(i - 1)].room(s[0].x);
+            case CurvedEnd::kGripEnds:
+                return grip_left(contact_, f);
+            case CurvedEnd::kSlipGrows:
+                return kSmallSlip * speed_ - f.slip.norm();
+            default:
+                return f.slip.dot(f.drive);  // the slip goes back to 0
+        }
+    }
+    bool skip_start(int i) const { return settled_ || end(i) == CurvedEnd::kSlipEnds; }
+
+  private:
+    const CurvedContact& contact_;
+    CurvedMode mode_;
+    bool settled_;
+    double speed_;
+};
+
+/// How fast friction and what drives it change the slip, along it [m/s^2].
+double slowing(const CurvedContact& c, const CurvedForces& f) {
+    return -f.slip.dot(f.drive + (1 + 1 / c.inertia_factor) * f.friction);
+}
+
+/// The longest piece that its laws bear, before its error is known.
+double longest_piece(const CurvedContact& c, CurvedMode mode, const CurvedState& s,
+                     const CurvedForces& f) {
+    double h = kLongestTurn * std::sqrt(c.distance / c.gravity.norm());
+    if (const double turning = f.normal_rate.norm(); turning > 0)
+        h = std::min(h, kLongestTurn / turning);
+    h = std::min(h, longest_turn(s.w, f.spin_rate));
+    if (mode != CurvedMode::kSliding) return h;
+    const double slip = f.slip.norm(), slows = slowing(c, f) / slip;
+    return slows > 0 ? std::min(h, kSlipPart * slip / slows) : h;
+}
+
 /// The state after the impulse of friction that ends the slip: it changes the slip s by 1 + 1/k
 /// times what it gives to the velocity. None where that takes longer.
-std::optional<CurvedState> sudden_grip(const Course& course, const CurvedForces& f) {
-    const CurvedContact& c = course.contact();
+std::optional<CurvedState> sudden_grip(const CurvedContact& c, CurvedMode mode,
+                                       const CurvedState& start, const CurvedForces& f) {
     const double k = c.inertia_factor;
-    if (course.mode() != CurvedMode::kSliding || !(f.push > 0)) return std::nullopt;
+    if (mode != CurvedMode::kSliding || !(f.push > 0)) return std::nullopt;
     if (f.slip.norm() > kSudden * c.friction * f.push * (1 + 1 / k)) return std::nullopt;
     const Vec3 change = -f.slip / (1 + 1 / k);
-    CurvedState state = course.start();
+    CurvedState state = start;
     state.v += change;
     state.w -= f.normal.cross(change) / (k * c.radius);
     return state;
-}
-
-/// The largest duration not above h that leads from `now` to a double.
-double to_a_double(double now, double h) {
-    const double seconds = (now + h) - now;
-    return seconds > 0 ? seconds : 0;
 }
 
 }  // namespace
 
 CurvedState integrate(const CurvedContact& contact, CurvedMode mode, const CurvedState& state,
                       double seconds) {
-    const Course course(contact, mode, state);
-    Numbers y = course.first();
-    course.advance(y, seconds);
-    return course.state(y);
+    const SingleLaw law(contact, mode, state, false);
+    const SingleLaw::State start = {state};
+    const ContactOde<SingleLaw> ode(law, start);
+    ContactOde<SingleLaw>::Numbers y = ode.first();
+    ode.advance(y, seconds);
+    return ode.state(y)[0];
 }
 
 CurvedPiece next_piece(const CurvedContact& contact, CurvedMode mode, const CurvedState& state,
                        double now, double guess, bool settled) {
-    const Course course(contact, mode, state);
-    const CurvedForces forces = course.forces(state);
+    const SingleLaw law(contact, mode, state, settled);
+    const CurvedForces forces = law.forces({state});
     CurvedPiece result;
     result.end_state = state;
-    if (mode == CurvedMode::kSliding && forces.slip.norm() <= kNoSlip * course.speed() &&
-        forces.slip.dot(forces.drive + (1 + 1 / contact.inertia_factor) * forces.friction) <= 0) {
+    if (mode == CurvedMode::kSliding && forces.slip.norm() <= kNoSlip * law.speed() &&
+        slowing(contact, forces) >= 0) {
         result.end = CurvedEnd::kSlipEnds;
         return result;
     }
-    const double longest = longest_piece(course, forces);
-    double h = to_a_double(now, std::min(longest, guess > 0 ? guess : 0.25 * longest));
-    for (int tries = 0; tries < kMostTries && h > 0; ++tries) {
-        Fit fitted;
-        try {
-            fitted = fit(course, h);
-            if (fitted.error <= 1) {
-                const Crossing crossing = first_crossing(course, fitted.piece, settled);
-                result.end = crossing.end;
-                const double growth =
-                    std::min(2.0, 0.9 * std::pow(std::max(fitted.error, 1e-6), -1.0 / 9));
-                result.next_seconds = h * growth;
-                if (crossing.end != CurvedEnd::kNone) {
-                    h = to_a_double(now, crossing.seconds);
-                    if (!(h > 0)) return result;
-                    fitted = fit(course, h);
-                }
-                result.seconds = h;
-                result.acceleration = fitted.piece.acceleration;
-                result.spin_rate = fitted.piece.spin_rate;
-                result.curve = *fitted.piece.curve;
-                result.end_state = fitted.end;
-                project(contact, mode, result.end_state);
-                return result;
-            }
-            h *= std::clamp(0.9 * std::pow(fitted.error, -1.0 / 9), 0.2, 0.9);
-        } catch (const odeint::odeint_error&) {
-            h *= 0.25;
-        }
-        h = to_a_double(now, h);
+    const double longest = longest_piece(contact, mode, state, forces);
+    const SingleLaw::State start = {state};
+    const IntegratedPiece<SingleLaw> next =
+        PieceIntegrator(law, start)
+            .next(now, std::min(longest, guess > 0 ? guess : 0.25 * longest));
+    if (next.given_up) {
+        const auto gripped = sudden_grip(contact, mode, state, forces);
+        result.end = gripped ? CurvedEnd::kSlipEnds : CurvedEnd::kGivenUp;
+        if (gripped) result.end_state = *gripped;
+        return result;
     }
-    if (const auto gripped = sudden_grip(course, forces)) {
-        result.end = CurvedEnd::kSlipEnds;
-        result.end_state = *gripped;
-    } else {
-        result.end = CurvedEnd::kGivenUp;
-    }
+    result.next_seconds = next.next_seconds;
+    if (next.gate >= 0) result.end = law.end(next.gate);
+    if (!(next.seconds > 0)) return result;
+    const Piece& piece = next.pieces[0];
+    result.seconds = next.seconds;
+    result.acceleration = piece.acceleration;
+    result.spin_rate = piece.spin_rate;
+    result.curve = *piece.curve;
+    result.end_state = next.end_state[0];
+    project(contact, mode, result.end_state);
     return result;
 }
 
