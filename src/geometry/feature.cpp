@@ -34,15 +34,15 @@ Feature feature_of(const CapsuleShape& capsule, const CenterMotion& center, doub
     f.distance = radius + capsule.radius;
     if (side < 0) {
         f.origin = capsule.from;
-        f.add_gate(-axis, -axis.dot(capsule.from));
+        f.add_border(-axis, -axis.dot(capsule.from));
     } else if (side > 0) {
         f.origin = capsule.to;
-        f.add_gate(axis, axis.dot(capsule.to));
+        f.add_border(axis, axis.dot(capsule.to));
     } else {
         f.origin = capsule.from;
         f.across = across_axis(axis);
-        f.add_gate(axis, axis.dot(capsule.from));
-        f.add_gate(-axis, -axis.dot(capsule.to));
+        f.add_border(axis, axis.dot(capsule.from));
+        f.add_border(-axis, -axis.dot(capsule.to));
     }
     return f;
 }
@@ -64,10 +64,10 @@ Feature feature_of(const BoxShape& box, const CenterMotion& center, double radiu
         if (sign != 0) {
             f.origin += (sign * half) * axis;
             f.across += axis * axis.transpose();
-            f.add_gate(sign * axis, sign * middle + half);
+            f.add_border(sign * axis, sign * middle + half);
         } else {
-            f.add_gate(axis, middle - half);
-            f.add_gate(-axis, -middle - half);
+            f.add_border(axis, middle - half);
+            f.add_border(-axis, -middle - half);
         }
     }
     // Through rounding all three may look inside; then the face that is nearest is the one.

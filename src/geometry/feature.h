@@ -11,26 +11,26 @@
 namespace carom {
 
 /// A half-space in which the ball's centre is on the same feature: direction . x >= offset.
-struct FeatureGate {
+struct FeatureBorder {
     Vec3 direction = Vec3::UnitX();
     double offset = 0;  ///< m
 
-    double room(const Vec3& x) const { return direction.dot(x) - offset; }
+    double margin(const Vec3& x) const { return direction.dot(x) - offset; }
 };
 
 /// Of the feature itself, and of others that meet the ball in the same place (seams.h).
-inline constexpr int kMostGates = 18;
+inline constexpr int kMostBorders = 18;
 
 struct Feature {
     Vec3 origin = Vec3::Zero();      ///< on the core
     Mat3 across = Mat3::Identity();  ///< takes away what lies along the core
     double distance = 1;             ///< of a touching ball's centre from the core, m
-    std::array<FeatureGate, kMostGates> gates{};
-    int gate_count = 0;
+    std::array<FeatureBorder, kMostBorders> borders{};
+    int border_count = 0;
 
     Vec3 normal_at(const Vec3& x) const { return (across * (x - origin)).normalized(); }
-    void add_gate(const Vec3& direction, double at) {
-        gates[static_cast<std::size_t>(gate_count++)] = {direction, at};
+    void add_border(const Vec3& direction, double at) {
+        borders[static_cast<std::size_t>(border_count++)] = {direction, at};
     }
 };
 

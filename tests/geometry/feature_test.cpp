@@ -30,8 +30,8 @@ TEST(Feature, CentersKeepTheirDistanceFromTheCore) {
                 << shape.index() << " at " << p.transpose();
             EXPECT_LT((f.normal_at(x) - nearest_on(shape, x, 0.2).normal).norm(), 10 * kRounding)
                 << shape.index();
-            for (int i = 0; i < f.gate_count; ++i)
-                EXPECT_GE(f.gates[std::size_t(i)].room(x), -kRounding) << shape.index();
+            for (int i = 0; i < f.border_count; ++i)
+                EXPECT_GE(f.borders[std::size_t(i)].margin(x), -kRounding) << shape.index();
         }
 }
 

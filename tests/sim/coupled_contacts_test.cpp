@@ -52,7 +52,7 @@ void expect_parting(BallOnBall& b, double cosine, const char* what) {
 }
 
 // Held by a wall, ball 1 is a sphere of the surroundings: H29.
-TEST(LinkedBalls, SlidesOffHeldBall) {
+TEST(CoupledContacts, SlidesOffHeldBall) {
     for (const double degrees : {1.0, 10.0, 30.0, 60.0}) {
         BallOnBall b = ball_on_ball(degrees, 0);
         add_wall(b);
@@ -67,7 +67,7 @@ TEST(LinkedBalls, SlidesOffHeldBall) {
 
 // Momentum along x and energy give the angle's rate; p = m/(m + M):
 // D rate^2 (1 - p cos^2) / 2 = g (cos0 - cos), and they part where D rate^2 = g cos.
-TEST(LinkedBalls, SlidesOffBallThatGivesWay) {
+TEST(CoupledContacts, SlidesOffBallThatGivesWay) {
     for (const double degrees : {5.0, 30.0})
         for (const double mass : {0.1, 1.0, 20.0}) {
             BallOnBall b = ball_on_ball(degrees, 0, 0.1, 0.3, mass);
@@ -94,7 +94,7 @@ double falling_root(const F& f) {
 // has (1 + k') D y / 2 = g (cos0 - cos) and holds while k'/(1 + k') g sin <= mu (g cos - D y).
 // Sliding has dy/dangle = 2 mu y + 2 g/D (sin - mu cos), solved by y = A cos + B sin + C exp(2 mu
 // angle).
-TEST(LinkedBalls, RollsAndSlidesOffHeldBallThatTurns) {
+TEST(CoupledContacts, RollsAndSlidesOffHeldBallThatTurns) {
     for (const double mass : {0.2, 1.0, 50.0})
         for (const double mu : {0.1, 0.5}) {
             BallOnBall b = ball_on_ball(3, mu, 0.1, 0.3, mass);
@@ -143,7 +143,7 @@ TEST(LinkedBalls, RollsAndSlidesOffHeldBallThatTurns) {
 // Ball 1 rolls on the floor, and ball 0 on it. Lagrange's equations have the place along x as a
 // cyclic coordinate: its momentum m v + M V + k M R W - k m r w keeps its value, W and w the spins
 // about y.
-TEST(LinkedBalls, RollsOffBallThatRolls) {
+TEST(CoupledContacts, RollsOffBallThatRolls) {
     for (const double mass : {0.5, 1.0, 5.0}) {
         BallOnBall b = ball_on_ball(10, 10, 0.1, 0.3, mass);
         b.scene.materials[1].friction = 10;
@@ -176,7 +176,7 @@ TEST(LinkedBalls, RollsOffBallThatRolls) {
 }
 
 // On a ball so heavy that nothing moves it, all happens as on a sphere: rolling, sliding, leaving.
-TEST(LinkedBalls, HeavyBallIsASphere) {
+TEST(CoupledContacts, HeavyBallIsASphere) {
     for (const double mu : {0.1, 0.5}) {
         BallOnBall b = ball_on_ball(3, mu, 0.1, 0.9, 1e13);
         const SimulationResult linked = run(b.scene, 3);
@@ -203,7 +203,7 @@ TEST(LinkedBalls, HeavyBallIsASphere) {
 
 // In a groove, friction on both sides holds the ball back by mu N each, and turns it until it
 // rolls.
-TEST(LinkedBalls, SlidesDownGroove) {
+TEST(CoupledContacts, SlidesDownGroove) {
     const double mu = 0.2, a = 40 * M_PI / 180, half = M_PI / 4;
     Scene scene = exact_scene(0, mu, kGravity);
     const Vec3 up(std::sin(a), 0, std::cos(a)), along(std::cos(a), 0, -std::sin(a));
@@ -227,7 +227,7 @@ TEST(LinkedBalls, SlidesDownGroove) {
 
 // A third ball meets two that act on each other: momentum along the floor is kept through the
 // impact and all that follows, energy never rises, and nothing sinks in.
-TEST(LinkedBalls, HitFromOutside) {
+TEST(CoupledContacts, HitFromOutside) {
     for (const double restitution : {0.0, 0.5, 1.0})
         for (const double time : {0.1, 0.15, 0.19}) {  // they part at 0.197 s
             BallOnBall b = ball_on_ball(30, 0);

@@ -19,8 +19,8 @@ Vec3 random_vector() {
 }
 
 /// One ball on a sphere, as the only contact of a system.
-LinkedBalls one_contact(const CurvedContact& contact, CurvedMode mode, double mass) {
-    LinkedBalls system;
+CoupledContacts one_contact(const SingleContact& contact, ContactMode mode, double mass) {
+    CoupledContacts system;
     system.ball_count = system.contact_count = 1;
     system.balls[0] = {contact.radius, mass, contact.inertia_factor};
     system.contacts[0].feature = contact;
@@ -30,26 +30,26 @@ LinkedBalls one_contact(const CurvedContact& contact, CurvedMode mode, double ma
     return system;
 }
 
-// With one contact the equations have the solution that curved_forces() writes down.
-TEST(LinkedForces, OneContactIsTheClosedForm) {
+// With one contact the equations have the solution that single_contact_forces() writes down.
+TEST(CoupledForces, OneContactIsTheClosedForm) {
     double worst = 0;
     for (int i = 0; i < 200; ++i)
-        for (const CurvedMode mode :
-             {CurvedMode::kSmooth, CurvedMode::kSliding, CurvedMode::kRolling}) {
+        for (const ContactMode mode :
+             {ContactMode::kSmooth, ContactMode::kSliding, ContactMode::kRolling}) {
             const double radius = 0.05 + 0.1 * i / 200;
-            CurvedContact c = curved_contact(SphereShape{Vec3::Zero(), 0.7},
+            SingleContact c = single_contact(SphereShape{Vec3::Zero(), 0.7},
                                              (0.7 + radius) * random_vector().normalized(),
                                              Vec3::Zero(), radius, Vec3(0, 0, -kGravity));
             c.friction = 0.3;
             c.inertia_factor = kShell;
             const double mass = std::pow(10.0, i % 7 - 3);
-            LinkedBalls system = one_contact(c, mode, mass);
-            LinkedState state;
+            CoupledContacts system = one_contact(c, mode, mass);
+            CoupledState state;
             state[0] = {c.origin + c.distance * random_vector().normalized(), random_vector(),
                         random_vector()};
             project(system, state);
-            const CurvedForces closed = curved_forces(c, mode, state[0]);
-            const LinkedForces f = linked_forces(system, state);
+            const SingleContactForces closed = single_contact_forces(c, mode, state[0]);
+            const CoupledForces f = coupled_forces(system, state);
             worst = std::max({worst, (f.acceleration[0] - closed.acceleration).norm() / kGravity,
                               radius * (f.spin_rate[0] - closed.spin_rate).norm() / kGravity,
                               std::abs(f.contacts[0].push / mass - closed.push) / kGravity});
@@ -59,8 +59,8 @@ TEST(LinkedForces, OneContactIsTheClosedForm) {
 }
 
 /// Two balls in a corner of three planes, all touching: a system with five contacts.
-LinkedBalls corner(LinkedState& state, double friction) {
-    LinkedBalls system;
+CoupledContacts corner(CoupledState& state, double friction) {
+    CoupledContacts system;
     system.gravity = Vec3(0.5, -1, -9);
     system.ball_count = 2;
     system.balls[0] = {0.1, 1, kSolid};
@@ -69,7 +69,7 @@ LinkedBalls corner(LinkedState& state, double friction) {
     state[0] = {Vec3(0.1, 0.1, 0.1), Vec3::Zero(), Vec3::Zero()};
     state[1] = {Vec3(0.2, 0.2, 0.1 + along), Vec3::Zero(), Vec3::Zero()};
     const auto wall = [&](int ball, const Vec3& normal) {
-        LinkedContact& c = system.contacts[system.contact_count++];
+        CoupledContact& c = system.contacts[system.contact_count++];
         c.ball = ball;
         c.feature.across = normal * normal.transpose();
         c.feature.distance = system.balls[static_cast<std::size_t>(ball)].radius;
@@ -78,7 +78,7 @@ LinkedBalls corner(LinkedState& state, double friction) {
     wall(0, Vec3::UnitX());
     wall(0, Vec3::UnitZ());
     wall(1, Vec3::UnitX());
-    LinkedContact& both = system.contacts[system.contact_count++];
+    CoupledContact& both = system.contacts[system.contact_count++];
     both.ball = 0;
     both.other = 1;
     both.feature.distance = 0.3;
@@ -88,26 +88,26 @@ LinkedBalls corner(LinkedState& state, double friction) {
 
 // Energy: the power of all forces is that of gravity and of friction against slips; and nothing
 // that presses opens or shuts.
-TEST(LinkedForces, PowerIsThatOfGravityAndFriction) {
+TEST(CoupledForces, PowerIsThatOfGravityAndFriction) {
     double worst = 0, gap = 0;
     int slides = 0, rolls = 0;
     for (int i = 0; i < 200; ++i) {
-        LinkedState state;
-        LinkedBalls system = corner(state, 0.3);
+        CoupledState state;
+        CoupledContacts system = corner(state, 0.3);
         for (std::size_t b = 0; b < 2; ++b) {
             state[b].v = random_vector();
             state[b].w = 5 * random_vector();
         }
         for (std::size_t c = 0; c < system.contact_count; ++c) {
             const bool roll = (i >> c) % 2 == 1;
-            system.contacts[c].mode = roll ? CurvedMode::kRolling : CurvedMode::kSliding;
+            system.contacts[c].mode = roll ? ContactMode::kRolling : ContactMode::kSliding;
             ++(roll ? rolls : slides);
         }
         project(system, state);
-        const LinkedForces f = linked_forces(system, state);
+        const CoupledForces f = coupled_forces(system, state);
         double power = 0, expected = 0, size = 1;
         for (std::size_t b = 0; b < 2; ++b) {
-            const LinkedBall& ball = system.balls[b];
+            const CoupledBall& ball = system.balls[b];
             power += ball.mass * (state[b].v.dot(f.acceleration[b]) +
                                   ball.inertia_factor * ball.radius * ball.radius *
                                       state[b].w.dot(f.spin_rate[b]));
@@ -128,18 +128,18 @@ TEST(LinkedForces, PowerIsThatOfGravityAndFriction) {
 }
 
 // Slips that begin grow in the direction against which friction acts, all at the same time.
-TEST(LinkedForces, SlipsBeginInTheirDirection) {
+TEST(CoupledForces, SlipsBeginInTheirDirection) {
     int begun = 0;
     double worst = 0;
     for (int i = 0; i < 100; ++i) {
-        LinkedState state;
-        LinkedBalls system = corner(state, 0.02);
+        CoupledState state;
+        CoupledContacts system = corner(state, 0.02);
         system.gravity += 3 * random_vector();
         for (std::size_t c = 0; c < system.contact_count; ++c)
-            system.contacts[c].mode = CurvedMode::kIncipient;
-        const LinkedForces f = linked_forces(system, state);
+            system.contacts[c].mode = ContactMode::kIncipient;
+        const CoupledForces f = coupled_forces(system, state);
         for (std::size_t c = 0; c < system.contact_count; ++c) {
-            const LinkedContactForces& at = f.contacts[c];
+            const CoupledContactForces& at = f.contacts[c];
             if (!(at.push > 0) || !(at.slip_rate.dot(at.direction) > 0)) continue;
             ++begun;
             const double size = at.slip_rate.norm();

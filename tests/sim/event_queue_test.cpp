@@ -13,9 +13,9 @@
 namespace carom {
 namespace {
 
-TEST(DueList, GivesTheEarliestAndAtOneInstantTheFirstBall) {
+TEST(EventQueue, GivesTheEarliestAndAtOneInstantTheFirstBall) {
     constexpr int kBalls = 37;
-    DueList list(kBalls);
+    EventQueue list(kBalls);
     std::vector<double> times(kBalls, std::numeric_limits<double>::infinity());
     std::mt19937 random(5);
     int ties = 0;
@@ -40,8 +40,8 @@ TEST(DueList, GivesTheEarliestAndAtOneInstantTheFirstBall) {
     EXPECT_GT(ties, 1000);
 }
 
-TEST(DueList, OfNoBallsHasNothingDue) {
-    const DueList list(0);
+TEST(EventQueue, OfNoBallsHasNothingDue) {
+    const EventQueue list(0);
     EXPECT_TRUE(std::isinf(list.first().time));
 }
 

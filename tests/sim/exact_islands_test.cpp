@@ -192,7 +192,7 @@ Scene poured(int count, double friction) {
 }
 
 TEST(ExactIslands, PouredBallsComeToRest) {
-    // Ten are an island at most, thirty a crowd, whose steps are longer.
+    // Ten are an island at most, thirty a pile, whose steps are longer.
     for (const auto& [count, depth_bound] : {std::pair{10, 1e-5}, {30, 5e-5}}) {
         Scene scene = poured(count, 0.3);
         const SimulationResult r = run(scene, 4);

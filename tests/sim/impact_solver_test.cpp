@@ -189,7 +189,7 @@ TEST(ImpactSweeps, AgreeWithOde) {
         solver.solve(bodies, contacts, 0);
         for (std::size_t i = 0; i < contacts.size(); ++i)
             swept_contacts[i].approach_speed = contacts[i].approach_speed;
-        solve_by_sweeps(swept, swept_contacts);
+        solve_by_gauss_seidel(swept, swept_contacts);
         for (std::size_t i = 0; i < bodies.size(); ++i)
             worst =
                 std::max(worst, (bodies[i].velocities.linear - swept[i].velocities.linear).norm());
@@ -205,7 +205,7 @@ TEST(ImpactSweeps, CoulombsCone) {
         std::vector<ImpactBody> bodies = {ball(Vec3::Zero(), 3 * along - 5 * Vec3::UnitZ())};
         std::vector<Contact> contacts = {on_surface(0, Vec3::UnitZ(), 0.8, 0.05)};
         contacts[0].approach_speed = 5;
-        solve_by_sweeps(bodies, contacts);
+        solve_by_gauss_seidel(bodies, contacts);
         EXPECT_LE((bodies[0].velocities.linear - 2.55 * along - Vec3(0, 0, 4)).norm(), 1e-13);
     }
 }

@@ -38,7 +38,7 @@ Slip slip_reference(const Vec3& g_t, double grip, double k, Slip now, double sec
     return now;
 }
 
-TEST(CurvedContact, SlipAcrossSlopeTurns) {  // H28
+TEST(SingleContact, SlipAcrossSlopeTurns) {  // H28
     for (const double k : {kSolid, kShell}) {
         Scene scene = exact_scene(0, 0.3, kGravity);
         const Vec3 n = incline(10);
@@ -61,7 +61,7 @@ TEST(CurvedContact, SlipAcrossSlopeTurns) {  // H28
 
 // With g = |g_t|, A = mu g_n (1 + 1/k) and the slip s: d/dt (g_t.s + A |s|) = g^2 - A^2, so the
 // slip ends at (g_t.s0 + A |s0|) / (A^2 - g^2); and v - k/(1+k) s always changes by g_t / (1+k).
-TEST(CurvedContact, TurningSlipEndsInRolling) {
+TEST(SingleContact, TurningSlipEndsInRolling) {
     for (const double degrees : {2.0, 10.0, 25.0})
         for (const double azimuth : {0.5, 1.5, 2.8})
             for (const double k : {kSolid, kShell}) {
@@ -141,7 +141,7 @@ void expect_departure(Dome& d, double cosine, double k, const char* what) {
     }
 }
 
-TEST(CurvedContact, BallLeavesSphere) {  // H29
+TEST(SingleContact, BallLeavesSphere) {  // H29
     for (const double degrees : {1.0, 10.0, 30.0, 60.0}) {
         Dome d = dome(degrees, 0.1, 0.9, 0);
         expect_departure(d, 2.0 / 3 * d.start_cosine, 0, "smooth");
@@ -161,7 +161,7 @@ TEST(CurvedContact, BallLeavesSphere) {  // H29
 }
 
 // (1 + k) v^2 / 2 = g D (cos0 - cos), and it leaves where v^2 = g D cos: cos = 2 cos0 / (3 + k).
-TEST(CurvedContact, BallRollsOffSphere) {
+TEST(SingleContact, BallRollsOffSphere) {
     for (const double k : {kSolid, kShell})
         for (const double degrees : {5.0, 40.0}) {
             Dome d = dome(degrees, 0.1, 0.9, 1e12);
@@ -174,7 +174,7 @@ TEST(CurvedContact, BallRollsOffSphere) {
 // k/(1+k) g sin <= mu (g cos - D y). Sliding has dy/dangle = 2 mu y + 2 g/D (sin - mu cos), solved
 // by y = A cos + B sin + C exp(2 mu angle), A = (4 mu^2 - 2)/(1 + 4 mu^2) g/D, B = -6 mu/(1 + 4
 // mu^2) g/D. It leaves where g cos = D y.
-TEST(CurvedContact, RollingBallBeginsToSlideOnSphere) {
+TEST(SingleContact, RollingBallBeginsToSlideOnSphere) {
     for (const double mu : {0.1, 0.5, 1.5}) {
         Dome d = dome(3, 0.1, 0.9, mu);
         const double g = kGravity, D = d.distance, k = kSolid;
@@ -210,7 +210,7 @@ TEST(CurvedContact, RollingBallBeginsToSlideOnSphere) {
     }
 }
 
-TEST(CurvedContact, BallOnTheVeryTopRests) {
+TEST(SingleContact, BallOnTheVeryTopRests) {
     for (const double friction : {0.0, 0.5}) {
         Scene scene = exact_scene(0.5, friction, kGravity);
         add_surface(scene, "dome", SphereShape{Vec3::Zero(), 0.9});
@@ -225,7 +225,7 @@ TEST(CurvedContact, BallOnTheVeryTopRests) {
     }
 }
 
-TEST(CurvedContact, MirroredBallsMirror) {
+TEST(SingleContact, MirroredBallsMirror) {
     Scene scene = exact_scene(0, 0.4, kGravity);
     add_surface(scene, "dome", SphereShape{Vec3::Zero(), 0.9});
     for (const double side : {-1.0, 1.0}) {
@@ -250,7 +250,7 @@ TEST(CurvedContact, MirroredBallsMirror) {
 
 // It leaves where v^2 = g R cos, with v^2 = v0^2 + 2 g R (1 - cos); only the part across the edge
 // counts, the part along it stays.
-TEST(CurvedContact, BallPivotsOverEdge) {  // H30
+TEST(SingleContact, BallPivotsOverEdge) {  // H30
     for (const double R : {0.1, 0.004})
         for (const double fraction : {0.05, 0.3, 0.999, 1.001, 1.5})
             for (const double along : {0.0, 0.7}) {
@@ -273,7 +273,7 @@ TEST(CurvedContact, BallPivotsOverEdge) {  // H30
             }
 }
 
-TEST(CurvedContact, BallRollsOverEdgeAndCorner) {
+TEST(SingleContact, BallRollsOverEdgeAndCorner) {
     // Rolling over the edge: (1 + k) v^2 / 2 grows by g R (1 - cos), as on a sphere of radius 0.
     Scene scene = exact_scene(0, 1e12, kGravity);
     add_surface(scene, "table", BoxShape{Vec3(-1, 0, -0.5), Vec3(2, 2, 1), Quat::Identity()});

@@ -151,7 +151,7 @@ TEST(CurvedImpact, TimesAgreeWithSampling) {
             if (gap(0) < 0) continue;
             const std::optional<double> expected = sampled(gap, seconds);
             const TimeOfImpact toi =
-                curved_impact_with_surface(curved_path(piece, from, seconds), radius, shape, false);
+                impact_with_surface(high_degree_path(piece, from, seconds), radius, shape, false);
             ASSERT_EQ(toi.state, expected ? ImpactState::kHit : ImpactState::kMiss)
                 << "trial " << trial;
             if (!expected) {
@@ -183,9 +183,9 @@ TEST(CurvedImpact, BallsOnTwoCurves) {
         };
         if (gap(0) < 0) continue;
         const std::optional<double> expected = sampled(gap, seconds);
-        const CurvedPath path =
-            curved_path(a, from, seconds).relative_to(curved_path(b, from, seconds));
-        const TimeOfImpact toi = curved_impact_with_sphere(path, sum, false);
+        const HighDegreePath path =
+            high_degree_path(a, from, seconds).relative_to(high_degree_path(b, from, seconds));
+        const TimeOfImpact toi = impact_with_sphere(path, sum, false);
         ASSERT_EQ(toi.state, expected ? ImpactState::kHit : ImpactState::kMiss);
         if (!expected) continue;
         ++hits;

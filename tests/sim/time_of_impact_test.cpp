@@ -191,7 +191,7 @@ TEST(TimeOfImpact, AGapThatCountsAsNoneDoesSoWhenItShutsAgain) {
                 piece.velocity = path.velocity;
                 piece.acceleration = g;
                 const TimeOfImpact curved =
-                    curved_impact_with_surface(curved_path(piece, 0, 1), 0.1, shape, true);
+                    impact_with_surface(high_degree_path(piece, 0, 1), 0.1, shape, true);
                 ASSERT_EQ(curved.state, ImpactState::kHit) << rounding << ", " << v;
                 EXPECT_LE(std::abs(curved.s / (2 * v / 3) - 1), 1e-6);
             }

@@ -58,10 +58,10 @@ bool pass_close(const FreeMotion& a, const FreeMotion& b, double duration) {
 
 }  // namespace
 
-Meeting meeting_of(const Scene& scene, const PairTable& pairs, double duration) {
+CanCollide can_collide(const Scene& scene, const PairTable& pairs, double duration) {
     const std::size_t balls = scene.balls.size();
     if (balls < 2) return {false, "one ball at most: nothing to meet but surfaces"};
-    const Meeting can{true, fmt::format("the scene has {} balls, which can meet", balls)};
+    const CanCollide can{true, fmt::format("the scene has {} balls, which can meet", balls)};
     const bool planes =
         std::all_of(scene.surfaces.begin(), scene.surfaces.end(),
                     [](const Surface& s) { return std::holds_alternative<PlaneShape>(s.shape); });

@@ -8,7 +8,7 @@
 
 namespace carom {
 
-struct Meeting {
+struct CanCollide {
     bool possible = true;
     std::string why;
 };
@@ -18,6 +18,6 @@ struct Meeting {
 /// planes' normals, so that the balls keep their relative velocity across them. (Without friction
 /// that is so on any planes; with friction, on parallel planes across gravity, for balls that start
 /// without any motion along them and without spin.)
-Meeting meeting_of(const Scene& scene, const PairTable& pairs, double duration);
+CanCollide can_collide(const Scene& scene, const PairTable& pairs, double duration);
 
 }  // namespace carom

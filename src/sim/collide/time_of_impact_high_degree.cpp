@@ -21,7 +21,7 @@ constexpr double kStill = 2e-14;
 /// Features whose gap is below this fraction of their size are those in contact.
 constexpr double kContact = 1e-9;
 
-LongPolynomial plane_gap(const CurvedPath& p, const Vec3& normal, double offset) {
+LongPolynomial plane_gap(const HighDegreePath& p, const Vec3& normal, double offset) {
     LongPolynomial gap;
     gap.degree = p.c.size() - 1;
     for (std::size_t i = 0; i < p.c.size(); ++i) gap.c[i] = normal.dot(p.c[i]);
@@ -30,7 +30,8 @@ LongPolynomial plane_gap(const CurvedPath& p, const Vec3& normal, double offset)
 }
 
 /// |across (p - origin)|^2 - d^2
-LongPolynomial round_gap(const CurvedPath& p, const Vec3& origin, const Mat3& across, double d) {
+LongPolynomial round_gap(const HighDegreePath& p, const Vec3& origin, const Mat3& across,
+                         double d) {
     std::array<Vec3, 9> q;
     for (std::size_t i = 0; i < q.size(); ++i) q[i] = across * p.c[i];
     q[0] = across * (p.c[0] - origin);
@@ -49,7 +50,7 @@ LongPolynomial round_gap(const CurvedPath& p, const Vec3& origin, const Mat3& ac
 /// The first touch of all features of one body.
 class FirstTouch {
   public:
-    FirstTouch(const CurvedPath& path, bool touching) : path_(path), touching_(touching) {}
+    FirstTouch(const HighDegreePath& path, bool touching) : path_(path), touching_(touching) {}
 
     /// `rate_scale`: how the gap's rate goes with the distance's. `holds`: the motion leads to this
     /// feature, which therefore decides whether they press. `touched`: whether the whole body is
@@ -82,7 +83,7 @@ class FirstTouch {
     }
 
   private:
-    const CurvedPath& path_;
+    const HighDegreePath& path_;
     bool touching_;
     bool pressed_ = false;
     TimeOfImpact result_;
@@ -91,7 +92,7 @@ class FirstTouch {
 Mat3 across_axis(const Vec3& axis) { return Mat3::Identity() - axis * axis.transpose(); }
 
 /// The side of an extent around `middle` that the beginning of a path leads to.
-int side_along(const CurvedPath& p, const Vec3& axis, const Vec3& middle, double half,
+int side_along(const HighDegreePath& p, const Vec3& axis, const Vec3& middle, double half,
                double radius) {
     const double border = kBorder * (p.c[0].cwiseAbs().maxCoeff() + radius);
     return side_of({axis.dot(p.c[0] - middle), axis.dot(p.c[1]), axis.dot(p.c[2])}, half, border,
@@ -99,7 +100,7 @@ int side_along(const CurvedPath& p, const Vec3& axis, const Vec3& middle, double
 }
 
 template <class Touched>
-void offer_features(FirstTouch& first, const CurvedPath& p, double radius, const BoxShape& box,
+void offer_features(FirstTouch& first, const HighDegreePath& p, double radius, const BoxShape& box,
                     const Touched& touched) {
     using Sides = std::array<int, 3>;
     const Mat3 axes = box.orientation.toRotationMatrix();
@@ -140,20 +141,20 @@ void offer_features(FirstTouch& first, const CurvedPath& p, double radius, const
 bool always(double) { return true; }
 
 template <class Touched>
-void offer_features(FirstTouch& first, const CurvedPath& p, double radius, const PlaneShape& plane,
-                    const Touched&) {
+void offer_features(FirstTouch& first, const HighDegreePath& p, double radius,
+                    const PlaneShape& plane, const Touched&) {
     first.offer(plane_gap(p, plane.normal, plane.offset_m + radius), radius, 1, true, always);
 }
 
 template <class Touched>
-void offer_features(FirstTouch& first, const CurvedPath& p, double radius,
+void offer_features(FirstTouch& first, const HighDegreePath& p, double radius,
                     const SphereShape& sphere, const Touched&) {
     const double d = radius + sphere.radius;
     first.offer(round_gap(p, sphere.center, Mat3::Identity(), d), d, 2 * d, true, always);
 }
 
 template <class Touched>
-void offer_features(FirstTouch& first, const CurvedPath& p, double radius,
+void offer_features(FirstTouch& first, const HighDegreePath& p, double radius,
                     const CapsuleShape& capsule, const Touched& touched) {
     const double d = radius + capsule.radius;
     const Vec3 whole = capsule.to - capsule.from, axis = whole.normalized();
@@ -166,26 +167,26 @@ void offer_features(FirstTouch& first, const CurvedPath& p, double radius,
 
 }  // namespace
 
-Vec3 CurvedPath::at(double u) const {
+Vec3 HighDegreePath::at(double u) const {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = c.size(); i-- > 0;) sum = c[i] + u * sum;
     return sum;
 }
 
-CurvedPath CurvedPath::relative_to(const CurvedPath& other) const {
-    CurvedPath path = *this;
+HighDegreePath HighDegreePath::relative_to(const HighDegreePath& other) const {
+    HighDegreePath path = *this;
     for (std::size_t i = 0; i < c.size(); ++i) path.c[i] -= other.c[i];
     return path;
 }
 
-double CurvedPath::reach() const {
+double HighDegreePath::reach() const {
     double sum = 0;
     for (std::size_t i = 1; i < c.size(); ++i) sum += c[i].norm();
     return sum;
 }
 
-CurvedPath curved_path(const Piece& piece, double from, double seconds) {
-    CurvedPath path;
+HighDegreePath high_degree_path(const Piece& piece, double from, double seconds) {
+    HighDegreePath path;
     path.seconds = seconds;
     auto& c = path.c;
     if (!piece.curve) {
@@ -211,7 +212,7 @@ CurvedPath curved_path(const Piece& piece, double from, double seconds) {
     return path;
 }
 
-TimeOfImpact curved_impact_with_sphere(const CurvedPath& path, double distance, bool touching) {
+TimeOfImpact impact_with_sphere(const HighDegreePath& path, double distance, bool touching) {
     if (!touching && path.c[0].norm() - path.reach() > distance) return {};
     FirstTouch first(path, touching);
     first.offer(round_gap(path, Vec3::Zero(), Mat3::Identity(), distance), distance, 2 * distance,
@@ -219,8 +220,8 @@ TimeOfImpact curved_impact_with_sphere(const CurvedPath& path, double distance, 
     return first.result();
 }
 
-TimeOfImpact curved_impact_with_surface(const CurvedPath& ball, double radius,
-                                        const SurfaceShape& shape, bool touching) {
+TimeOfImpact impact_with_surface(const HighDegreePath& ball, double radius,
+                                 const SurfaceShape& shape, bool touching) {
     const double gap = nearest_on(shape, ball.c[0], radius).gap;
     if (!touching && gap > ball.reach()) return {};
     // Of what touches, the gap of now counts as 0, and so does a later one of the same size.
@@ -236,7 +237,7 @@ TimeOfImpact curved_impact_with_surface(const CurvedPath& ball, double radius,
     return first.result();
 }
 
-double seconds_above(const CurvedPath& path, const Vec3& direction, double offset) {
+double seconds_above(const HighDegreePath& path, const Vec3& direction, double offset) {
     if (direction.dot(path.c[0]) - offset > path.reach()) return path.seconds;
     DownwardCrossings crossings(plane_gap(path, direction, offset));
     double u = 1;

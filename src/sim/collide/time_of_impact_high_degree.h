@@ -11,26 +11,26 @@
 namespace carom {
 
 /// A centre over some seconds: the sum of c[i] u^i, u = s / seconds in [0, 1].
-struct CurvedPath {
+struct HighDegreePath {
     std::array<Vec3, 9> c;
     double seconds = 0;
 
-    CurvedPath() { c.fill(Vec3::Zero()); }
+    HighDegreePath() { c.fill(Vec3::Zero()); }
     Vec3 at(double u) const;
-    CurvedPath relative_to(const CurvedPath& other) const;  ///< of the same seconds
+    HighDegreePath relative_to(const HighDegreePath& other) const;  ///< of the same seconds
     /// No place is farther than this from the first one, m.
     double reach() const;
 };
 
 /// The part of a piece from `from` on [s].
-CurvedPath curved_path(const Piece& piece, double from, double seconds);
+HighDegreePath high_degree_path(const Piece& piece, double from, double seconds);
 
 /// As impact_with_sphere() and impact_with_surface(): the horizon is the path's length.
-TimeOfImpact curved_impact_with_sphere(const CurvedPath& path, double distance, bool touching);
-TimeOfImpact curved_impact_with_surface(const CurvedPath& ball, double radius,
-                                        const SurfaceShape& shape, bool touching);
+TimeOfImpact impact_with_sphere(const HighDegreePath& path, double distance, bool touching);
+TimeOfImpact impact_with_surface(const HighDegreePath& ball, double radius,
+                                 const SurfaceShape& shape, bool touching);
 
 /// Seconds until direction . x falls below `offset`; at most the path's length.
-double seconds_above(const CurvedPath& path, const Vec3& direction, double offset);
+double seconds_above(const HighDegreePath& path, const Vec3& direction, double offset);
 
 }  // namespace carom

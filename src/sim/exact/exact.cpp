@@ -26,9 +26,9 @@ constexpr int kMostAtOneInstant = 20'000;
 constexpr int kMostOfOneBall = 200;
 constexpr int kMostGivenUpAtOnce = 1000;
 
-/// Impacts with a larger coefficient do not make a crowd: a dense gas of balls that lose hardly
+/// Impacts with a larger coefficient do not make a pile: a dense gas of balls that lose hardly
 /// anything is followed impact by impact, so that its energy is kept.
-constexpr double kMostOfCrowd = 0.9;
+constexpr double kMostOfPile = 0.9;
 
 /// Events between two looks at the stop token, where nothing is stepped or integrated, which takes
 /// a hundred times as long.
@@ -37,7 +37,7 @@ constexpr std::int64_t kEventsPerLook = 1024;
 /// Counts events at one instant.
 class Standstill {
   public:
-    /// Whether the next event is one too many; a step of a crowd, which gets on by itself, is none.
+    /// Whether the next event is one too many; a step of a pile, which gets on by itself, is none.
     bool stuck(const Prediction& next) {
         of_one_ball_ = next.ball == ball_ ? of_one_ball_ + 1 : 0;
         ball_ = next.ball;
@@ -61,11 +61,11 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
     : world_(scene),
       end_(end),
       links_(scene.balls.size()),
-      crowd_(world_),
-      due_(scene.balls.size()),
+      pile_(world_),
+      queue_(scene.balls.size()),
       log_(scene.balls.size()),
       next_(scene.balls.size()),
-      meeting_(meeting_of(scene, world_.pairs, end)),
+      can_collide_(can_collide(scene, world_.pairs, end)),
       cluster_(world_),
       seeds_(scene.balls.size()) {
     world_.place_rounding = options.place_rounding;
@@ -87,12 +87,12 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
         merge_places(world_, body.position, start, contacts, 0,
                      [](const Contact&, const Contact&) {});
         if (approaches_at_start(i, contacts))
-            fly(i, 0, start);  // into an impact at once
+            begin_flight(i, 0, start);  // into an impact at once
         else
             settle(i, 0, start, contacts, body.velocity.norm(), true);
     }
-    world_.balls_can_meet = meeting_.possible;
-    if (meeting_.possible && scene.balls.size() >= options.balls_for_grid) world_.build_grid(0);
+    world_.balls_can_meet = can_collide_.possible;
+    if (can_collide_.possible && scene.balls.size() >= options.balls_for_grid) world_.build_grid(0);
     for (int i = 0; i < balls; ++i) predict(i, 0);
 }
 
@@ -114,7 +114,7 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
     Standstill standstill;
     std::int64_t looked = 0;  // how much that takes long had been done
     for (std::int64_t events = 0;; ++events) {
-        const DueList::Entry first = due_.first();
+        const EventQueue::Entry first = queue_.first();
         const bool step = next_step_ <= first.time;
         if (std::min(next_step_, first.time) > end_) {
             if (until_rest) report_.unrest = unrest();
@@ -123,11 +123,11 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         Prediction next;
         if (step) {
             next.time = next_step_;
-            next.ball = crowd_.awake().empty() ? 0 : crowd_.awake().front();
+            next.ball = pile_.awake().empty() ? 0 : pile_.awake().front();
         } else {
             next = due(first.ball);
-            due_.drop(first.ball);
-            fetch(due_.first().ball);  // most likely the next one
+            queue_.drop(first.ball);
+            fetch(queue_.first().ball);  // most likely the next one
             if (!current(next)) continue;
         }
         if (next.time > last) standstill = {};
@@ -135,7 +135,7 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         last = std::max(last, next.time);
 
         if (step) {
-            step_crowd(next.time);
+            step_pile(next.time);
         } else if (stuck) {
             if (standstill.is_hopeless())
                 refuse("more events at one instant than can be resolved", next.ball, next.partner,
@@ -143,7 +143,7 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
             give_up_on(next);
         } else {
             take_together(next);
-            happen(next.time);
+            process_instant(next.time);
         }
         fit_grid(next.time);
         if (until_rest && all_at_rest()) {
@@ -175,11 +175,11 @@ void ExactRun::fetch(int ball) const {
 /// The next prediction, and the others of its instant.
 void ExactRun::take_together(const Prediction& next) {
     together_.assign(1, next);
-    while (due_.first().time <= next.time * (1 + kTogether)) {
-        const int ball = due_.first().ball;
+    while (queue_.first().time <= next.time * (1 + kTogether)) {
+        const int ball = queue_.first().ball;
         const Prediction p = due(ball);
         if (current(p)) together_.push_back(p);
-        due_.drop(ball);
+        queue_.drop(ball);
     }
 }
 
@@ -187,7 +187,7 @@ SimulationResult ExactRun::finish() {
     log_.move_into(motion_.balls);
     motion_.peaks = find_peaks(world_.scene, motion_);
     report_.effects = effects_of(world_.scene, world_.pairs);
-    report_.effects["pairs"] = {meeting_.possible, meeting_.why};
+    report_.effects["pairs"] = {can_collide_.possible, can_collide_.why};
     report_.effects["islands"] =
         report_.integrated + report_.steps > 0
             ? Effect{true, fmt::format("contacts act on each other: {} pieces integrated, {} steps "
@@ -213,7 +213,7 @@ void ExactRun::refuse(const std::string& what, int ball, const Partner& partner,
 // ---- Events
 // --------------------------------------------------------------------------------------
 
-void ExactRun::happen(double now) {
+void ExactRun::process_instant(double now) {
     seeds_.clear();
     stepped_.clear();
     ++instant_;
@@ -229,8 +229,8 @@ void ExactRun::happen(double now) {
                 end_phase(p.ball, now);
         } else if (!p.partner.is_surface && world_.ball(p.partner.index).stamp != p.partner_stamp) {
             predict(p.ball, now);  // the partner has moved on since
-        } else if (meets_crowd(p)) {
-            crowd_.want(world_.ball(p.ball).crowded ? p.partner.index : p.ball);
+        } else if (meets_pile(p)) {
+            pile_.want(world_.ball(p.ball).in_pile ? p.partner.index : p.ball);
             next_step_ = now;
         } else {
             seeds_.add(contact_met(p, now));
@@ -239,7 +239,7 @@ void ExactRun::happen(double now) {
     const std::size_t met = seeds_.all().size();
     // What hangs on a link is met as well.
     const auto has_links = [this](int ball) {
-        return is_stepped(world_.ball(ball)) && !links_.of(ball).empty();
+        return has_island(world_.ball(ball)) && !links_.of(ball).empty();
     };
     const auto linked = [&has_links](const Contact& c) {
         return has_links(c.ball) || (!c.other.is_surface && has_links(c.other.index));
@@ -257,8 +257,8 @@ void ExactRun::happen(double now) {
 /// Events of a ball that have no end in time: it is stepped, as is what it meets.
 void ExactRun::give_up_on(const Prediction& p) {
     for (const int ball : {p.ball, p.partner.is_surface ? -1 : p.partner.index}) {
-        if (ball < 0 || world_.ball(ball).crowded) continue;
-        CurvedPhase& phase = curved_[ball];
+        if (ball < 0 || world_.ball(ball).in_pile) continue;
+        IntegratedPhase& phase = integrated_[ball];
         phase.state = {world_.position(ball, p.time), world_.velocities(ball, p.time).linear,
                        world_.velocities(ball, p.time).spin};
         step_instead(ball, p.time);
@@ -288,25 +288,25 @@ Contact ExactRun::contact_met(const Prediction& p, double now) {
 void ExactRun::resolve(const Contact& seed, double now) {
     cluster_.gather(seed, seeds_, now);
     impacts_.clear();
-    const Cluster::Limits limits = limits_of(cluster_);
+    const ImpactCluster::Limits limits = limits_of(cluster_);
     cluster_.resolve(solver_, impacts_, limits);
     const double rounding_speed =
         std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
-    write_impacts(impacts_, now);
+    add_impact_events(impacts_, now);
     for (const int ball : cluster_.balls()) {
         world_.ball(ball).resolved = instant_;
         world_.ball(ball).rounding_speed = rounding_speed;
     }
     settle_cluster(cluster_, now);
     const bool lossy = std::any_of(impacts_.begin(), impacts_.end(),
-                                   [](const Contact& c) { return c.restitution <= kMostOfCrowd; });
+                                   [](const Contact& c) { return c.restitution <= kMostOfPile; });
     for (const int ball : cluster_.balls()) {
         if (lossy) note_impact(ball, now);
         predict(ball, now);
     }
 }
 
-void ExactRun::write_impacts(const std::vector<Contact>& impacts, double now) {
+void ExactRun::add_impact_events(const std::vector<Contact>& impacts, double now) {
     for (const Contact& c : impacts) {
         Event e;
         e.time = now;
@@ -325,7 +325,7 @@ void ExactRun::write_impacts(const std::vector<Contact>& impacts, double now) {
     }
 }
 
-void ExactRun::row(double now, EventKind kind, int ball) {
+void ExactRun::add_event(double now, EventKind kind, int ball) {
     const ExactBall& b = world_.ball(ball);
     Event e;
     e.time = now;
@@ -339,9 +339,9 @@ void ExactRun::row(double now, EventKind kind, int ball) {
 
 void ExactRun::end_phase(int ball, double now) {
     ExactBall& b = world_.ball(ball);
-    if (b.row_due <= now) {
-        b.row_due = std::numeric_limits<double>::infinity();
-        row(now, b.kind, ball);
+    if (b.event_due <= now) {
+        b.event_due = std::numeric_limits<double>::infinity();
+        add_event(now, b.kind, ball);
     }
     if (b.phase_end > now) {
         b.stamp = next_stamp_++;
@@ -350,11 +350,11 @@ void ExactRun::end_phase(int ball, double now) {
     }
     const Velocities velocities = world_.velocities(ball, now);
     if (b.piece.curve)
-        end_curved(ball, now);
+        end_integrated(ball, now);
     else if (const Contact c = world_.contact_at(ball, {true, b.surface}, now); !b.leaves_at_end)
-        stay(ball, now, c, velocities, 0, false);
+        begin_contact(ball, now, c, velocities, 0, false);
     else if (!go_over_seam(ball, now, velocities))
-        follow(ball, now, c, velocities, 0, false);
+        begin_integrated(ball, now, c, velocities, 0, false);
     predict(ball, now);
 }
 

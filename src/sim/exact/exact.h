@@ -26,7 +26,7 @@ struct ExactOptions {
 /// What it integrates (single_motion.h): one ball on a sphere, a capsule, an edge or a corner, or
 /// with a slip that turns, right to 1e-12 of its size and speeds, some tens of pieces a second.
 /// What it steps: from 24 balls on that hang together, or where impacts come too thick to be told
-/// apart, a crowd (pile.h), in steps of at most 1/1000 s and 3 % of a radius. With ODE
+/// apart, a pile (pile.h), in steps of at most 1/1000 s and 3 % of a radius. With ODE
 /// (island_step.h): fewer lasting contacts that act on each other (stacks, grooves), in steps of
 /// 1/4000 s. What comes to rest there costs
 /// nothing until something touches it. Fails with Failure(kRun) naming the bodies and the time if a

@@ -85,19 +85,19 @@ Velocities ExactRun::landed(int ball, double now, const Contact& contact,
                            slip_tolerance(ball, now, velocities));
 }
 
-/// Whether a contact that does not approach is a lasting one; `tail` [s] is how long its remaining
-/// bounces take: 2 v / (g_n (1 - e)), v the separation speed.
+/// Whether a contact that does not approach is a lasting one; `bounce_time_left` [s] is how long
+/// its remaining bounces take: 2 v / (g_n (1 - e)), v the separation speed.
 bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
-                     double& tail) const {
+                     double& bounce_time_left) const {
     const double g_n = pressing_gravity(c.normal);
     if (!c.other.is_surface || g_n == 0) return false;
     const double v = std::max(c.separation_speed, 0.0);
-    tail = 0;
+    bounce_time_left = 0;
     if (v <= kStillFraction * speed_scale) return true;
     const Vec3 x = world_.position(ball, now);
     if (v * v / (2 * g_n) >= hop_limit(ball, x)) return false;
     // Hops that drown in rounding are a contact for any coefficient; only for 1 they have no end.
-    if (c.restitution < 1) tail = 2 * v / (g_n * (1 - c.restitution));
+    if (c.restitution < 1) bounce_time_left = 2 * v / (g_n * (1 - c.restitution));
     return true;
 }
 
@@ -126,30 +126,31 @@ bool ExactRun::approaches_at_start(int ball, const std::vector<Contact>& contact
 void ExactRun::settle(int ball, double now, const Velocities& velocities,
                       const std::vector<Contact>& contacts, double speed_scale, bool at_start) {
     const Contact* lasting = nullptr;
-    double tail = 0;
+    double bounce_time_left = 0;
     bool many = false;
     for (const Contact& c : contacts) {
-        double this_tail = 0;
-        if (!lasts(c, ball, now, speed_scale, this_tail)) continue;
+        double bounce_time = 0;
+        if (!lasts(c, ball, now, speed_scale, bounce_time)) continue;
         if (lasting != nullptr) many = true;
-        if (many) note_landing(*lasting, now, now + tail);
+        if (many) note_landing(*lasting, now, now + bounce_time_left);
         lasting = &c;
-        tail = this_tail;
+        bounce_time_left = bounce_time;
     }
     if (many) {
-        note_landing(*lasting, now, now + tail);
-        join(ball, now, velocities);
+        note_landing(*lasting, now, now + bounce_time_left);
+        enter_island(ball, now, velocities);
         return;
     }
     if (lasting != nullptr) {
         const double v = at_start ? lasting->separation_speed : bounce_of(*lasting);
         const bool bounces = std::abs(v) > kStillFraction * speed_scale;
-        stay(ball, now, *lasting, bounces ? landed(ball, now, *lasting, velocities, v) : velocities,
-             tail, at_start);
+        begin_contact(ball, now, *lasting,
+                      bounces ? landed(ball, now, *lasting, velocities, v) : velocities,
+                      bounce_time_left, at_start);
         return;
     }
-    if (world_.ball(ball).surface >= 0) row(now, EventKind::kLeave, ball);
-    fly(ball, now, velocities);
+    if (world_.ball(ball).surface >= 0) add_event(now, EventKind::kLeave, ball);
+    begin_flight(ball, now, velocities);
 }
 
 void ExactRun::begin_piece(int ball, double now, const BallState& at, const Vec3& a,
@@ -164,14 +165,14 @@ void ExactRun::begin_piece(int ball, double now, const BallState& at, const Vec3
     log_.append(ball, b.piece);
 }
 
-void ExactRun::fly(int ball, double now, const Velocities& velocities) {
+void ExactRun::begin_flight(int ball, double now, const Velocities& velocities) {
     ExactBall& b = world_.ball(ball);
     BallState at = world_.state(ball, now);
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
     b.surface = -1;
     b.stepped = b.asleep = b.coarse = false;
-    b.phase_end = b.row_due = kInfinity;
+    b.phase_end = b.event_due = kInfinity;
     begin_piece(ball, now, at, world_.scene.simulation.gravity, Vec3::Zero());
 }
 
@@ -186,8 +187,9 @@ bool ExactRun::can_hold(int ball, double now, const Contact& contact,
 }
 
 /// Only where can_hold().
-void ExactRun::hold(int ball, double now, const Contact& contact, const Velocities& velocities,
-                    double tail, bool at_start) {
+void ExactRun::begin_flat_contact(int ball, double now, const Contact& contact,
+                                  const Velocities& velocities, double bounce_time_left,
+                                  bool at_start) {
     const std::optional<FlatMotion> motion = flat_motion(
         flat_contact(world_, ball, contact), velocities, slip_tolerance(ball, now, velocities));
     CAROM_CHECK(motion.has_value(), ==, true);
@@ -197,7 +199,8 @@ void ExactRun::hold(int ball, double now, const Contact& contact, const Velociti
     at.position += contact.depth * contact.normal;  // what rounding left of the gap
     at.velocity = motion->velocities.linear;
     at.spin = motion->velocities.spin;
-    begin_contact(ball, now, contact.other, contact.normal, motion->kind, tail, at_start);
+    begin_flat_piece(ball, now, contact.other, contact.normal, motion->kind, bounce_time_left,
+                     at_start);
     begin_piece(ball, now, at, motion->acceleration, motion->spin_rate);
 
     const double on_face = seconds_on_face(b.piece, world_.surface(contact.other.index).shape,
@@ -207,19 +210,19 @@ void ExactRun::hold(int ball, double now, const Contact& contact, const Velociti
 }
 
 /// A change of kind is a row; that of a contact that begins waits for the end of its bounces.
-void ExactRun::begin_contact(int ball, double now, const Partner& surface, const Vec3& normal,
-                             EventKind kind, double tail, bool at_start) {
+void ExactRun::begin_flat_piece(int ball, double now, const Partner& surface, const Vec3& normal,
+                                EventKind kind, double bounce_time_left, bool at_start) {
     ExactBall& b = world_.ball(ball);
     const bool same = b.surface == surface.index && b.kind == kind;
     b.surface = surface.index;
     b.kind = kind;
     b.normal = normal;
     b.stepped = b.asleep = b.coarse = false;
-    if (b.row_due < kInfinity || at_start || same) return;
-    if (tail > 0)
-        b.row_due = now + tail;
+    if (b.event_due < kInfinity || at_start || same) return;
+    if (bounce_time_left > 0)
+        b.event_due = now + bounce_time_left;
     else
-        row(now, kind, ball);
+        add_event(now, kind, ball);
 }
 
 }  // namespace carom

@@ -24,26 +24,26 @@ constexpr int kMostInVain = 40;
 /// of a slip takes.
 constexpr double kFirstStepped = 1e-3;
 
-EventKind kind_of(CurvedMode mode) {
-    return mode == CurvedMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
+EventKind kind_of(ContactMode mode) {
+    return mode == ContactMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
 }
 
-bool is_plane(const CurvedContact& contact) { return contact.across.trace() < 1.5; }
+bool is_plane(const SingleContact& contact) { return contact.across.trace() < 1.5; }
 
 }  // namespace
 
 /// A single lasting contact with a surface goes on, in closed form if there is one.
-void ExactRun::stay(int ball, double now, const Contact& contact, const Velocities& velocities,
-                    double tail, bool at_start) {
+void ExactRun::begin_contact(int ball, double now, const Contact& contact,
+                             const Velocities& velocities, double bounce_time_left, bool at_start) {
     const Vec3 v = tangential_part(velocities.linear, contact.normal);
-    const CurvedContact feature =
-        curved_contact(world_.surface(contact.other.index).shape, world_.position(ball, now), v,
+    const SingleContact feature =
+        single_contact(world_.surface(contact.other.index).shape, world_.position(ball, now), v,
                        world_.ball(ball).radius, world_.scene.simulation.gravity);
     // At the border of a face the motion says whether it is still on it.
     if (is_plane(feature) && can_hold(ball, now, contact, velocities))
-        hold(ball, now, contact, velocities, tail, at_start);
+        begin_flat_contact(ball, now, contact, velocities, bounce_time_left, at_start);
     else
-        follow(ball, now, contact, velocities, tail, at_start);
+        begin_integrated(ball, now, contact, velocities, bounce_time_left, at_start);
 }
 
 /// Where the feature that holds the ball ends, another surface that touches it may go on: then
@@ -55,45 +55,46 @@ bool ExactRun::go_over_seam(int ball, double now, const Velocities& velocities) 
     if (!next) return false;
     world_.ball(ball).surface = next->contact.other.index;
     if (is_plane(next->feature) && can_hold(ball, now, next->contact, velocities))
-        hold(ball, now, next->contact, velocities, 0, false);
+        begin_flat_contact(ball, now, next->contact, velocities, 0, false);
     else
-        follow_feature(ball, now, next->contact, next->feature, velocities, 0, false);
+        begin_integrated_on(ball, now, next->contact, next->feature, velocities, 0, false);
     return true;
 }
 
 /// The same, integrated.
-void ExactRun::follow(int ball, double now, const Contact& contact, const Velocities& velocities,
-                      double tail, bool at_start) {
-    const CurvedContact feature =
-        curved_contact(world_.surface(contact.other.index).shape, world_.position(ball, now),
+void ExactRun::begin_integrated(int ball, double now, const Contact& contact,
+                                const Velocities& velocities, double bounce_time_left,
+                                bool at_start) {
+    const SingleContact feature =
+        single_contact(world_.surface(contact.other.index).shape, world_.position(ball, now),
                        tangential_part(velocities.linear, contact.normal), world_.ball(ball).radius,
                        world_.scene.simulation.gravity);
-    follow_feature(ball, now, contact, feature, velocities, tail, at_start);
+    begin_integrated_on(ball, now, contact, feature, velocities, bounce_time_left, at_start);
 }
 
-void ExactRun::follow_feature(int ball, double now, const Contact& contact,
-                              const CurvedContact& feature, const Velocities& velocities,
-                              double tail, bool at_start) {
+void ExactRun::begin_integrated_on(int ball, double now, const Contact& contact,
+                                   const SingleContact& feature, const Velocities& velocities,
+                                   double bounce_time_left, bool at_start) {
     const ExactBall& body = world_.ball(ball);
     const Vec3& gravity = world_.scene.simulation.gravity;
-    CurvedPhase& phase = curved_[ball];
+    IntegratedPhase& phase = integrated_[ball];
     phase.state = {world_.position(ball, now), velocities.linear, velocities.spin};
     phase.contact = feature;
     add_borders_of_others(world_, contact, phase.state, phase.contact);
     phase.contact.inertia_factor = body.inertia_factor;
     phase.contact.friction = contact.friction;
     phase.next_seconds = 0;
-    project(phase.contact, CurvedMode::kSmooth, phase.state);
-    const CurvedForces forces = choose_mode(phase, slip_tolerance(ball, now, velocities));
-    if (!(forces.push > least_push(phase.contact, phase.state.x))) {
+    project(phase.contact, ContactMode::kSmooth, phase.state);
+    const SingleContactForces forces = choose_mode(phase, slip_tolerance(ball, now, velocities));
+    if (!(forces.push > lift_off_threshold(phase.contact, phase.state.x))) {
         lift_off(ball, now, contact.other, forces.normal);
         return;
     }
-    const bool still = phase.state.v.isZero(0) && phase.mode != CurvedMode::kSliding;
+    const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
     Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
     const bool rests = still && pull.norm() <= kBalanced * gravity.norm();
-    begin_contact(ball, now, {true, contact.other.index}, forces.normal,
-                  rests ? EventKind::kRest : kind_of(phase.mode), tail, at_start);
+    begin_flat_piece(ball, now, {true, contact.other.index}, forces.normal,
+                     rests ? EventKind::kRest : kind_of(phase.mode), bounce_time_left, at_start);
     if (!rests) {
         advance(ball, now);
         return;
@@ -107,37 +108,37 @@ void ExactRun::follow_feature(int ball, double now, const Contact& contact,
 }
 
 /// Whether it slides or rolls, and the forces then.
-CurvedForces ExactRun::choose_mode(CurvedPhase& phase, double tolerance) const {
-    const auto forces = [&phase](CurvedMode mode) {
+SingleContactForces ExactRun::choose_mode(IntegratedPhase& phase, double tolerance) const {
+    const auto forces = [&phase](ContactMode mode) {
         phase.mode = mode;
-        return curved_forces(phase.contact, mode, phase.state);
+        return single_contact_forces(phase.contact, mode, phase.state);
     };
-    if (phase.contact.friction == 0) return forces(CurvedMode::kSmooth);
-    const CurvedForces sliding = forces(CurvedMode::kSliding);
+    if (phase.contact.friction == 0) return forces(ContactMode::kSmooth);
+    const SingleContactForces sliding = forces(ContactMode::kSliding);
     if (sliding.slip.norm() > tolerance) return sliding;
-    project(phase.contact, CurvedMode::kRolling, phase.state);
-    const CurvedForces rolling = forces(CurvedMode::kRolling);
-    return grip_left(phase.contact, rolling) >= 0 ? rolling : forces(CurvedMode::kIncipient);
+    project(phase.contact, ContactMode::kRolling, phase.state);
+    const SingleContactForces rolling = forces(ContactMode::kRolling);
+    return grip_left(phase.contact, rolling) >= 0 ? rolling : forces(ContactMode::kIncipient);
 }
 
 void ExactRun::lift_off(int ball, double now, const Partner& surface, const Vec3& normal) {
     ExactBall& b = world_.ball(ball);
-    const CurvedState& s = curved_[ball].state;
+    const ContactState& s = integrated_[ball].state;
     put_at(ball, now, s.x);
     if (b.surface >= 0) {
         b.normal = normal;
-        row(now, EventKind::kLeave, ball);
+        add_event(now, EventKind::kLeave, ball);
     }
-    note_parting(world_.contact_at(ball, surface, now), now);
-    fly(ball, now, {s.v, s.w});
+    note_separation(world_.contact_at(ball, surface, now), now);
+    begin_flight(ball, now, {s.v, s.w});
 }
 
 /// The next piece of the ball's phase.
 void ExactRun::advance(int ball, double now) {
-    CurvedPhase& phase = curved_[ball];
+    IntegratedPhase& phase = integrated_[ball];
     if (phase.last_begin != now) phase.at_once = 0;
     phase.last_begin = now;
-    const CurvedPiece piece = next_piece(phase.contact, phase.mode, phase.state, now,
+    const SinglePiece piece = next_piece(phase.contact, phase.mode, phase.state, now,
                                          phase.next_seconds, phase.at_once >= kMostAtOnce);
     phase.end = piece.end;
     phase.next_seconds = piece.next_seconds;
@@ -145,10 +146,10 @@ void ExactRun::advance(int ball, double now) {
     if (!(piece.seconds > 0)) {
         phase.state = piece.end_state;
         b.phase_end = now;
-        if (piece.end == CurvedEnd::kGivenUp || ++phase.at_once > kMostInVain)
+        if (piece.end == SingleEnd::kGivenUp || ++phase.at_once > kMostInVain)
             step_instead(ball, now);
         else
-            end_curved(ball, now);
+            end_integrated(ball, now);
         return;
     }
     BallState at = world_.state(ball, now);
@@ -163,48 +164,48 @@ void ExactRun::advance(int ball, double now) {
 
 /// The last resort where a contact cannot be integrated: ODE steps it for a while.
 void ExactRun::step_instead(int ball, double now) {
-    CurvedPhase& phase = curved_[ball];
+    IntegratedPhase& phase = integrated_[ball];
     phase.stepped_seconds = std::max(2 * phase.stepped_seconds, kFirstStepped);
     phase.stepped_until = now + phase.stepped_seconds;
     phase.at_once = 0;
     ++report_.given_up;
     put_at(ball, now, phase.state.x);
-    join(ball, now, {phase.state.v, phase.state.w});
+    enter_island(ball, now, {phase.state.v, phase.state.w});
 }
 
 /// A piece, or the whole phase, ends.
-void ExactRun::end_curved(int ball, double now) {
-    CurvedPhase& phase = curved_[ball];
+void ExactRun::end_integrated(int ball, double now) {
+    IntegratedPhase& phase = integrated_[ball];
     put_at(ball, now, phase.state.x);
     ExactBall& b = world_.ball(ball);
     b.normal = phase.contact.normal_at(phase.state.x);
     const Partner surface{true, b.surface};
     switch (phase.end) {
-        case CurvedEnd::kNone:
-        case CurvedEnd::kGivenUp:  // advance() has seen to that
+        case SingleEnd::kNone:
+        case SingleEnd::kGivenUp:  // advance() has seen to that
             break;
-        case CurvedEnd::kLiftOff:
+        case SingleEnd::kLiftOff:
             lift_off(ball, now, surface, b.normal);
             return;
-        case CurvedEnd::kSlipEnds:
-            project(phase.contact, CurvedMode::kRolling, phase.state);
+        case SingleEnd::kSlipEnds:
+            project(phase.contact, ContactMode::kRolling, phase.state);
             [[fallthrough]];
-        case CurvedEnd::kFeature: {
+        case SingleEnd::kFeature: {
             const Velocities velocities{phase.state.v, phase.state.w};
-            if (phase.end == CurvedEnd::kFeature && go_over_seam(ball, now, velocities)) return;
+            if (phase.end == SingleEnd::kFeature && go_over_seam(ball, now, velocities)) return;
             const Contact contact = world_.contact_at(ball, surface, now);
-            if (phase.end == CurvedEnd::kFeature && is_plane(phase.contact))
-                follow(ball, now, contact, velocities, 0, false);
+            if (phase.end == SingleEnd::kFeature && is_plane(phase.contact))
+                begin_integrated(ball, now, contact, velocities, 0, false);
             else
-                stay(ball, now, contact, velocities, 0, false);
+                begin_contact(ball, now, contact, velocities, 0, false);
             return;
         }
-        case CurvedEnd::kSlipGrows:
-            phase.mode = CurvedMode::kSliding;
+        case SingleEnd::kSlipGrows:
+            phase.mode = ContactMode::kSliding;
             break;
-        case CurvedEnd::kGripEnds:
-            phase.mode = CurvedMode::kIncipient;
-            begin_contact(ball, now, surface, b.normal, EventKind::kSlide, 0, false);
+        case SingleEnd::kGripEnds:
+            phase.mode = ContactMode::kIncipient;
+            begin_flat_piece(ball, now, surface, b.normal, EventKind::kSlide, 0, false);
             break;
     }
     advance(ball, now);

@@ -31,22 +31,23 @@ constexpr std::size_t kFewBalls = 20;
 constexpr int kMostShortPieces = 60;
 constexpr double kRestlessSeconds = 0.25;
 
-EventKind kind_of(CurvedMode mode) {
-    return mode == CurvedMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
+EventKind kind_of(ContactMode mode) {
+    return mode == ContactMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
 }
 
 /// All contacts and their modes as one number.
-std::uint64_t modes_of(const LinkedBalls& system) {
+std::uint64_t modes_of(const CoupledContacts& system) {
     std::uint64_t modes = system.ball_count;
     for (std::size_t i = 0; i < system.contact_count; ++i) {
-        const LinkedContact& c = system.contacts[i];
+        const CoupledContact& c = system.contacts[i];
         modes = 64 * modes + 16 * static_cast<std::uint64_t>(c.ball) +
                 4 * static_cast<std::uint64_t>(c.other + 1) + static_cast<std::uint64_t>(c.mode);
     }
     return modes;
 }
 
-bool is_still(const LinkedBalls& system, const LinkedState& state, const LinkedForces& forces) {
+bool is_still(const CoupledContacts& system, const CoupledState& state,
+              const CoupledForces& forces) {
     const double speed = kBalanced * speed_of(system, {});
     const double pull = kBalanced * system.gravity.norm();
     for (std::size_t b = 0; b < system.ball_count; ++b)
@@ -55,7 +56,7 @@ bool is_still(const LinkedBalls& system, const LinkedState& state, const LinkedF
             return false;
     return std::all_of(
         system.contacts.begin(), system.contacts.begin() + system.contact_count,
-        [](const LinkedContact& c) { return !c.presses || c.mode != CurvedMode::kSliding; });
+        [](const CoupledContact& c) { return !c.presses || c.mode != ContactMode::kSliding; });
 }
 
 }  // namespace
@@ -63,10 +64,10 @@ bool is_still(const LinkedBalls& system, const LinkedState& state, const LinkedF
 bool ExactRun::has_many_balls() const { return world_.balls.size() > kFewBalls; }
 
 /// The island as a system of its own. False if it is too large, or not together.
-bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedIsland& is) const {
-    if (island.size() > (has_many_balls() ? 2 : kMostLinkedBalls)) return false;
+bool ExactRun::coupled_system(const std::vector<int>& island, double now, CoupledIsland& is) const {
+    if (island.size() > (has_many_balls() ? 2 : kMostCoupledBalls)) return false;
     if (world_.scene.simulation.gravity.isZero(0)) return false;
-    LinkedBalls& system = is.system;
+    CoupledContacts& system = is.system;
     system.gravity = world_.scene.simulation.gravity;
     system.ball_count = island.size();
     const auto place = [&island](int ball) {
@@ -80,14 +81,14 @@ bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedI
         for (const Link& link : links_.of(island[b])) {
             const Contact c = world_.contact_at(island[b], link.partner, now);
             if (c.ball != island[b]) continue;
-            if (system.contact_count == kMostLinkedContacts || -c.depth < -kLinkGap * body.radius)
+            if (system.contact_count == kMostCoupledContacts || -c.depth < -kLinkGap * body.radius)
                 return false;
-            LinkedContact& contact = system.contacts[system.contact_count++];
+            CoupledContact& contact = system.contacts[system.contact_count++];
             contact.ball = place(c.ball);
             contact.friction = c.friction;
-            if (link.slip_begins) contact.mode = CurvedMode::kIncipient;
+            if (link.slip_begins) contact.mode = ContactMode::kIncipient;
             if (c.other.is_surface) {
-                contact.feature = curved_contact(world_.surface(c.other.index).shape, is.state[b].x,
+                contact.feature = single_contact(world_.surface(c.other.index).shape, is.state[b].x,
                                                  tangential_part(velocities.linear, c.normal),
                                                  body.radius, system.gravity);
                 add_borders_of_others(world_, c, is.state[b], contact.feature);
@@ -102,18 +103,18 @@ bool ExactRun::linked_system(const std::vector<int>& island, double now, LinkedI
 }
 
 /// Two that do not press any more have parted.
-void ExactRun::note_parting(const Contact& c, double now) {
-    std::erase_if(partings_, [now](const Parting& p) { return p.time < now; });
-    partings_.push_back({c.ball, c.other, now});
+void ExactRun::note_separation(const Contact& c, double now) {
+    std::erase_if(separations_, [now](const Separation& p) { return p.time < now; });
+    separations_.push_back({c.ball, c.other, now});
     std::erase_if(landings_,
                   [&c](const Landing& l) { return l.ball == c.ball && l.partner == c.other; });
 }
 
 void ExactRun::unlink(const Contact& c, double now) {
-    note_parting(c, now);
+    note_separation(c, now);
     const Link* link = links_.find(c.ball, c.other);
     if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
-        row_of(c, EventKind::kLeave, now);
+        add_contact_event(c, EventKind::kLeave, now);
     const auto forget = [this](int ball, const Partner& partner) {
         std::erase_if(links_.of(ball), [&](const Link& l) { return l.partner == partner; });
         world_.ball(ball).steps = std::max(world_.ball(ball).steps, 1);
@@ -131,16 +132,17 @@ bool ExactRun::has_hit(const Contact& c, double now) const {
     return false;
 }
 
-ExactRun::Parting* ExactRun::parting_of(const Contact& contact, double now) {
-    const auto found = std::find_if(partings_.begin(), partings_.end(), [&](const Parting& p) {
-        return p.time == now && p.ball == contact.ball && p.partner == contact.other;
-    });
-    return found == partings_.end() ? nullptr : &*found;
+ExactRun::Separation* ExactRun::separation_of(const Contact& contact, double now) {
+    const auto found =
+        std::find_if(separations_.begin(), separations_.end(), [&](const Separation& p) {
+            return p.time == now && p.ball == contact.ball && p.partner == contact.other;
+        });
+    return found == separations_.end() ? nullptr : &*found;
 }
 
 /// After steps of ODE gaps are shut that a step does not see; if that lifts balls, their speeds
 /// pay.
-void ExactRun::pay_for_places(const std::vector<int>& island, double now, LinkedIsland& is) const {
+void ExactRun::pay_for_places(const std::vector<int>& island, double now, CoupledIsland& is) const {
     if (std::none_of(island.begin(), island.end(),
                      [this](int ball) { return world_.ball(ball).coarse; }))
         return;
@@ -149,7 +151,7 @@ void ExactRun::pay_for_places(const std::vector<int>& island, double now, Linked
         const ExactBall& ball = world_.ball(island[b]);
         const double inertia = ball.inertia_factor * ball.mass * ball.radius * ball.radius;
         const Velocities v = world_.velocities(island[b], now);
-        const CurvedState& s = is.state[b];
+        const ContactState& s = is.state[b];
         before += 0.5 * (ball.mass * v.linear.squaredNorm() + inertia * v.spin.squaredNorm());
         kinetic += 0.5 * (ball.mass * s.v.squaredNorm() + inertia * s.w.squaredNorm());
         lifted -= ball.mass * is.system.gravity.dot(s.x - world_.position(island[b], now));
@@ -166,12 +168,12 @@ void ExactRun::pay_for_places(const std::vector<int>& island, double now, Linked
 /// The next pieces of the balls of a small island, all of the same length; or some of its contacts
 /// part now. False where it has to be stepped.
 bool ExactRun::integrate(const std::vector<int>& island, double now) {
-    LinkedIsland is;
-    if (!linked_system(island, now, is)) return false;
+    CoupledIsland is;
+    if (!coupled_system(island, now, is)) return false;
     if (island.size() == 1 && is.contacts.size() < 2) return false;
-    const LinkedForces before = linked_forces(is.system, is.state);
+    const CoupledForces before = coupled_forces(is.system, is.state);
     const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
-    std::array<bool, kMostLinkedContacts> gives_back{};
+    std::array<bool, kMostCoupledContacts> gives_back{};
     bool lands = false;
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
         if (landing_of(is.contacts[i], now) == nullptr) continue;
@@ -182,10 +184,10 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     if (!choose_modes(is.system, is.state)) return false;
     pay_for_places(island, now, is);
     bool parted = false;
-    LinkedForces forces = linked_forces(is.system, is.state);
+    CoupledForces forces = coupled_forces(is.system, is.state);
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
         if (is.system.contacts[i].presses) continue;
-        const Parting* parting = parting_of(is.contacts[i], now);
+        const Separation* parting = separation_of(is.contacts[i], now);
         // What still approaches is left to a step.
         if (before.contacts[i].speed < -rounding_speed || (parting != nullptr && parting->pressed))
             return false;
@@ -193,7 +195,7 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
         unlink(is.contacts[i], now);
         parted = true;
     }
-    LinkedPiece piece;
+    CoupledPiece piece;
     if (parted) {  // what is left of the island is due again
         begin_pieces(island, now, is, piece, rounding_speed);
         return true;
@@ -205,7 +207,7 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     note_forces(is, forces, still, now);
     ++report_.integrated;
     // A series that is over has its row at its end.
-    const double row = next_row(island, now);
+    const double row = next_contact_event(island, now);
     for (const int ball : island) {
         double& end = world_.ball(ball).phase_end;
         end = still ? row : std::min(end, row);
@@ -216,8 +218,8 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
 }
 
 /// A piece of no length is one at rest.
-void ExactRun::begin_pieces(const std::vector<int>& island, double now, const LinkedIsland& is,
-                            const LinkedPiece& piece, double rounding_speed) {
+void ExactRun::begin_pieces(const std::vector<int>& island, double now, const CoupledIsland& is,
+                            const CoupledPiece& piece, double rounding_speed) {
     for (std::size_t b = 0; b < island.size(); ++b) {
         ExactBall& ball = world_.ball(island[b]);
         BallState at = world_.state(island[b], now);
@@ -236,24 +238,25 @@ void ExactRun::begin_pieces(const std::vector<int>& island, double now, const Li
 }
 
 /// The next piece; of no length where the island has to be stepped.
-LinkedPiece ExactRun::piece_of(int first_ball, double now, LinkedIsland& is, LinkedForces& forces) {
-    if (std::optional<LinkedPiece> steady =
+CoupledPiece ExactRun::piece_of(int first_ball, double now, CoupledIsland& is,
+                                CoupledForces& forces) {
+    if (std::optional<CoupledPiece> steady =
             steady_piece(is.system, is.state, forces, now, end_ - now))
         return *steady;
     PieceGuess& guess = piece_guess_[first_ball];
     if (now < guess.stepped_until) return {};
     const std::uint64_t modes = modes_of(is.system);
-    LinkedPiece piece =
+    CoupledPiece piece =
         next_piece(is.system, is.state, now, guess.modes == modes ? guess.seconds : 0);
     // What ends at once is over.
     for (std::size_t i = 0; i < 2 * is.contacts.size() && piece.seconds == 0; ++i) {
-        if (piece.end == LinkedEnd::kParts) {
+        if (piece.end == CoupledEnd::kParts) {
             is.system.contacts[piece.contact].presses = false;
-        } else if (piece.end != LinkedEnd::kGripEnds ||
+        } else if (piece.end != CoupledEnd::kGripEnds ||
                    !begin_slip(is.system, is.state, piece.contact)) {
             return {};
         }
-        forces = linked_forces(is.system, is.state);
+        forces = coupled_forces(is.system, is.state);
         if (!is.system.contacts[piece.contact].presses &&
             !is_idle(is.system, forces.contacts[piece.contact]))
             return {};
@@ -271,8 +274,8 @@ LinkedPiece ExactRun::piece_of(int first_ball, double now, LinkedIsland& is, Lin
 
 /// Whether the speeds and slips of the island have long been what rounding leaves, `seconds` of it
 /// ahead. Newton's first law knows no lowest speed but that.
-bool ExactRun::is_at_rest(const std::vector<int>& island, const LinkedIsland& is,
-                          const LinkedForces& forces, double now, double seconds) {
+bool ExactRun::is_at_rest(const std::vector<int>& island, const CoupledIsland& is,
+                          const CoupledForces& forces, double now, double seconds) {
     const double slow = kRoundingSpeed * speed_of(is.system, {});
     bool calm = std::all_of(island.begin(), island.end(), [&](int ball) {
         return world_.velocities(ball, now).linear.norm() <= slow &&
@@ -291,23 +294,23 @@ bool ExactRun::is_at_rest(const std::vector<int>& island, const LinkedIsland& is
 }
 
 /// What the rows say about the contacts, whose kinds are known.
-void ExactRun::note_forces(const LinkedIsland& is, const LinkedForces& forces, bool still,
+void ExactRun::note_forces(const CoupledIsland& is, const CoupledForces& forces, bool still,
                            double now) {
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
         const Contact& contact = is.contacts[i];
-        const LinkedContactForces& at = forces.contacts[i];
-        const CurvedMode mode = is.system.contacts[i].mode;
+        const CoupledContactForces& at = forces.contacts[i];
+        const ContactMode mode = is.system.contacts[i].mode;
         const bool presses = is.system.contacts[i].presses;
         note_push(contact, presses ? Vec3(kIslandStep * (at.push * at.normal + at.friction))
                                    : Vec3(Vec3::Zero()));
         for (Link& link : links_.of(contact.ball)) {
             if (link.partner != contact.other) continue;
             link.pressed = presses;
-            link.slip_begins = mode == CurvedMode::kIncipient;
+            link.slip_begins = mode == ContactMode::kIncipient;
             if (!link.pressed) continue;
             link.last = contact;
             if (still || kind_of(mode) == link.stated || row_waits(link, now)) continue;
-            if (!link.from_start) row_of(contact, kind_of(mode), now);
+            if (!link.from_start) add_contact_event(contact, kind_of(mode), now);
             link.from_start = false;
             link.stated = link.candidate = kind_of(mode);
         }

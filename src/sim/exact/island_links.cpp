@@ -28,11 +28,11 @@ auto with(const Partner& partner) {
 
 }  // namespace
 
-void ExactRun::note_landing(const Contact& contact, double now, double row_due) {
+void ExactRun::note_landing(const Contact& contact, double now, double event_due) {
     std::erase_if(landings_, [&](const Landing& l) {
         return l.time < now || (l.ball == contact.ball && l.partner == contact.other);
     });
-    landings_.push_back({contact.ball, contact.other, now, row_due});
+    landings_.push_back({contact.ball, contact.other, now, event_due});
 }
 
 const ExactRun::Landing* ExactRun::landing_of(const Contact& contact, double now) const {
@@ -43,11 +43,11 @@ const ExactRun::Landing* ExactRun::landing_of(const Contact& contact, double now
 }
 
 /// When the next row of a bouncing series that is over is due; infinite if none is.
-double ExactRun::next_row(const std::vector<int>& island, double now) const {
+double ExactRun::next_contact_event(const std::vector<int>& island, double now) const {
     double next = std::numeric_limits<double>::infinity();
     for (const int ball : island)
         for (const Link& link : links_.of(ball))
-            if (row_waits(link, now)) next = std::min(next, link.row_due);
+            if (row_waits(link, now)) next = std::min(next, link.event_due);
     return next;
 }
 
@@ -69,7 +69,7 @@ bool ExactRun::stays_together(const Contact& contact, double now, const Link* li
         still += kStillFraction * other.norm() + world_.ball(contact.other.index).rounding_speed;
     }
     const double speed = v.dot(contact.normal);
-    if (Parting* parting = parting_of(contact, now); parting != nullptr) {
+    if (Separation* parting = separation_of(contact, now); parting != nullptr) {
         if (speed < -still) parting->pressed = true;
         if (!parting->pressed) return false;
     }
@@ -120,7 +120,7 @@ std::vector<int> ExactRun::link_neighbours(std::vector<int> balls, double now) {
         const int ball = balls[k];
         const BallState at = world_.state(ball, now);
         // What rested, flew or had a closed form is stepped from now on.
-        if (!world_.ball(ball).stepped) join(ball, now, {at.velocity, at.spin});
+        if (!world_.ball(ball).stepped) enter_island(ball, now, {at.velocity, at.spin});
         std::vector<Link> before = std::move(links_.of(ball));
         links_.of(ball).clear();
         for (const Link& link : before)
@@ -141,7 +141,7 @@ void ExactRun::add_link(const Contact& contact, int ball, const Partner& partner
     if (before != nullptr) link = *before;
     link.partner = partner;
     if (const Landing* landing = landing_of(contact, now); landing != nullptr && before == nullptr)
-        link.row_due = landing->row_due;
+        link.event_due = landing->event_due;
     if (now == 0) link.from_start = true;
     links_.of(ball).push_back(link);
 }
@@ -169,7 +169,7 @@ void ExactRun::link_near(int ball, double now, std::vector<Link>& before) {
                  });
     for (const Contact& c : met) add_link(c, ball, c.other, known(c.other), now);
     world_.for_each_near(ball, [&](int other) {
-        if (world_.ball(other).crowded) return;
+        if (world_.ball(other).in_pile) return;
         const double reach =
             (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(other).radius) +
             world_.place_rounding;
@@ -197,7 +197,7 @@ void ExactRun::note_link(Link& link, const Contact& contact, bool calm, double c
         link.candidate_steps = 0;
     }
     if (++link.candidate_steps < kKindSteps || kind == link.stated || row_waits(link, now)) return;
-    if (!link.from_start) row_of(contact, kind, now);
+    if (!link.from_start) add_contact_event(contact, kind, now);
     link.from_start = false;
     link.stated = kind;
 }
@@ -208,11 +208,11 @@ void ExactRun::note_departures(int ball, const std::vector<Link>& before, double
         if (links_.linked(ball, link.partner)) continue;
         if (!link.partner.is_surface && link.partner.index < ball) continue;
         if (link.stated != EventKind::kLeave || (link.from_start && link.pressed))
-            row_of(world_.contact_at(ball, link.partner, now), EventKind::kLeave, now);
+            add_contact_event(world_.contact_at(ball, link.partner, now), EventKind::kLeave, now);
     }
 }
 
-void ExactRun::row_of(const Contact& contact, EventKind kind, double now) {
+void ExactRun::add_contact_event(const Contact& contact, EventKind kind, double now) {
     Event e;
     e.time = now;
     e.ball = contact.ball;

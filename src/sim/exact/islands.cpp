@@ -30,19 +30,19 @@ constexpr double kSlowSeconds = 200 * kIslandStep;
 
 /// Links that one impact can pass through at once, by Newton's law. What is left beyond them is
 /// solved by the next step, without rebound.
-constexpr std::size_t kMostLinked = 40;
+constexpr std::size_t kMostCoupled = 40;
 
-/// An island of so many balls is a crowd, and so is a smaller one that does not come to rest in so
-/// many steps: in a crowd one ball that rolls on does not keep the others awake.
-constexpr std::size_t kCrowd = 24;
-constexpr std::size_t kSmallCrowd = 4;
+/// An island of so many balls is a pile, and so is a smaller one that does not come to rest in so
+/// many steps: in a pile one ball that rolls on does not keep the others awake.
+constexpr std::size_t kPile = 24;
+constexpr std::size_t kSmallPile = 4;
 constexpr int kRestlessSteps = 1000;
 
 /// Normals closer than this [rad] are one, along which a resting ball may spin.
 constexpr double kSameNormal = 1e-9;
 
 /// Rounds per contact of a cluster in an island.
-constexpr std::size_t kLinkedRounds = 2;
+constexpr std::size_t kCoupledRounds = 2;
 
 /// The balls of `set`, sorted, as islands: in order of their first balls.
 std::vector<std::vector<int>> islands_of(const std::vector<int>& set, const Links& links) {
@@ -68,26 +68,26 @@ std::vector<std::vector<int>> islands_of(const std::vector<int>& set, const Link
 // ------------------------------------------------------------------------------
 
 /// The ball gets these velocities, and its island takes a step at once.
-void ExactRun::join(int ball, double now, const Velocities& velocities) {
+void ExactRun::enter_island(int ball, double now, const Velocities& velocities) {
     ExactBall& b = world_.ball(ball);
     if (b.surface >= 0) {
         Link link;
         link.partner = {true, b.surface};
         link.last = world_.contact_at(ball, link.partner, now);
-        link.stated = std::isinf(b.row_due) ? b.kind : EventKind::kLeave;
-        if (!std::isinf(b.row_due)) link.row_due = b.row_due;
+        link.stated = std::isinf(b.event_due) ? b.kind : EventKind::kLeave;
+        if (!std::isinf(b.event_due)) link.event_due = b.event_due;
         links_.of(ball) = {link};
     }
     BallState at = world_.state(ball, now);
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
     // Where balls are many, what they join is most likely stepped.
-    if (!is_stepped(b)) b.coarse = has_many_balls();
+    if (!has_island(b)) b.coarse = has_many_balls();
     b.surface = -1;
     b.stepped = true;
     b.asleep = false;
     b.steps = b.calm_steps = b.slow_steps = 0;
-    b.row_due = kInfinity;
+    b.event_due = kInfinity;
     b.phase_end = now;
     begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
 }
@@ -106,7 +106,7 @@ std::vector<Contact> ExactRun::linked_contacts(const std::vector<Contact>& seeds
     }
     for (std::size_t k = 0; k < balls.size(); ++k)
         for (const Link& link : links_.of(balls[k])) {
-            if (all.size() >= seeds.size() + kMostLinked) return all;
+            if (all.size() >= seeds.size() + kMostCoupled) return all;
             const Contact c = world_.contact_at(balls[k], link.partner, now);
             const bool known = std::any_of(all.begin(), all.end(), [&c](const Contact& other) {
                 return other.ball == c.ball && other.other == c.other;
@@ -117,7 +117,7 @@ std::vector<Contact> ExactRun::linked_contacts(const std::vector<Contact>& seeds
     return all;
 }
 
-bool ExactRun::in_island(const Cluster& cluster) const {
+bool ExactRun::in_island(const ImpactCluster& cluster) const {
     return std::any_of(cluster.balls().begin(), cluster.balls().end(), [this](int ball) {
         return world_.ball(ball).stepped || world_.ball(ball).asleep;
     });
@@ -126,18 +126,18 @@ bool ExactRun::in_island(const Cluster& cluster) const {
 /// In an island that ODE steps, what is slower than a step can tell is left to the step, and a pile
 /// that goes on passing an impact to and fro is given up on as one inelastic contact. In others
 /// nothing is too slow that is no rounding.
-Cluster::Limits ExactRun::limits_of(const Cluster& cluster) const {
-    Cluster::Limits limits;
+ImpactCluster::Limits ExactRun::limits_of(const ImpactCluster& cluster) const {
+    ImpactCluster::Limits limits;
     for (const int ball : cluster.balls()) {
         const ExactBall& b = world_.ball(ball);
-        if (!is_stepped(b)) continue;
+        if (!has_island(b)) continue;
         limits.enough = std::max(limits.enough, b.rounding_speed);
-        if (b.coarse) return {slow_speed(world_), kLinkedRounds * cluster.contact_count()};
+        if (b.coarse) return {slow_speed(world_), kCoupledRounds * cluster.contact_count()};
     }
     return limits;
 }
 
-void ExactRun::settle_cluster(const Cluster& cluster, double now) {
+void ExactRun::settle_cluster(const ImpactCluster& cluster, double now) {
     const bool stepped = in_island(cluster);
     // What was left to a step has to be linked for it.
     const bool coarse = std::any_of(cluster.balls().begin(), cluster.balls().end(),
@@ -145,7 +145,7 @@ void ExactRun::settle_cluster(const Cluster& cluster, double now) {
     for (const int ball : cluster.balls()) {
         const Velocities& velocities = cluster.body(ball).velocities;
         if (stepped) {
-            join(ball, now, velocities);
+            enter_island(ball, now, velocities);
             world_.ball(ball).coarse = coarse;
             continue;
         }
@@ -167,8 +167,8 @@ void ExactRun::step_islands(const std::vector<int>& balls, double now) {
             due.push_back(ball);  // the others have taken their step with an island already
     const std::vector<int> set = link_neighbours(due, now);
     for (const std::vector<int>& island : islands_of(set, links_)) {
-        if (is_crowd(island)) {
-            for (const int ball : island) want_in_crowd(ball, now);
+        if (is_pile(island)) {
+            for (const int ball : island) want_in_pile(ball, now);
             next_step_ = now;
             continue;
         }
@@ -178,9 +178,9 @@ void ExactRun::step_islands(const std::vector<int>& balls, double now) {
     for (const int ball : set) predict(ball, now);
 }
 
-bool ExactRun::is_crowd(const std::vector<int>& island) const {
-    if (island.size() < kSmallCrowd) return false;
-    return island.size() >= kCrowd || std::any_of(island.begin(), island.end(), [this](int ball) {
+bool ExactRun::is_pile(const std::vector<int>& island) const {
+    if (island.size() < kSmallPile) return false;
+    return island.size() >= kPile || std::any_of(island.begin(), island.end(), [this](int ball) {
                return world_.ball(ball).steps >= kRestlessSteps;
            });
 }
@@ -191,18 +191,18 @@ bool ExactRun::leave_island(int ball, double now) {
     const BallState at = world_.state(ball, now);
     const Velocities velocities{at.velocity, at.spin};
     if (links.empty()) {
-        fly(ball, now, velocities);
+        begin_flight(ball, now, velocities);
         return true;
     }
     if (links.size() > 1 || !links.front().partner.is_surface) return false;
-    const auto phase = curved_.find(ball);
-    if (phase != curved_.end() && now < phase->second.stepped_until) return false;
+    const auto phase = integrated_.find(ball);
+    if (phase != integrated_.end() && now < phase->second.stepped_until) return false;
     const Link link = links.front();
     const Contact contact = world_.contact_at(ball, link.partner, now);
     // It joined because it met something: where nothing else tells whether the contact presses, a
     // step does.
     const bool presses = !world_.ball(ball).coarse && pressing_gravity(contact.normal) > 0 &&
-                         parting_of(contact, now) == nullptr;
+                         separation_of(contact, now) == nullptr;
     const double v = velocities.linear.dot(contact.normal);
     // Nothing brings it back.
     const bool parts =
@@ -212,9 +212,9 @@ bool ExactRun::leave_island(int ball, double now) {
     if (world_.ball(ball).steps == 0 && !presses && !parts) return false;
     if (parts || (!presses && !link.pressed && v > 0)) {  // lifted off
         if (link.stated != EventKind::kLeave || link.from_start)
-            row_of(contact, EventKind::kLeave, now);
+            add_contact_event(contact, EventKind::kLeave, now);
         links.clear();
-        fly(ball, now, velocities);
+        begin_flight(ball, now, velocities);
         return true;
     }
     if (link.stated != EventKind::kLeave) {
@@ -223,8 +223,9 @@ bool ExactRun::leave_island(int ball, double now) {
     }
     links.clear();
     const bool lands = landing_of(contact, now) != nullptr;
-    stay(ball, now, contact, lands ? landed(ball, now, contact, velocities, v) : velocities,
-         std::max(link.row_due - now, 0.0), link.from_start);
+    begin_contact(ball, now, contact,
+                  lands ? landed(ball, now, contact, velocities, v) : velocities,
+                  std::max(link.event_due - now, 0.0), link.from_start);
     return true;
 }
 
@@ -298,7 +299,7 @@ void ExactRun::fall_asleep(const std::vector<int>& balls, double now, double cal
         begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
         for (Link& link : links_.of(ball)) {
             const bool news = !link.from_start && link.stated != EventKind::kRest;
-            if (link.pressed && news) row_of(link.last, EventKind::kRest, now);
+            if (link.pressed && news) add_contact_event(link.last, EventKind::kRest, now);
             if (link.pressed) link.stated = EventKind::kRest;
         }
     }

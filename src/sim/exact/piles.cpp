@@ -1,4 +1,4 @@
-// The crowd's part of a run: who joins it, its steps, who leaves it or falls asleep.
+// The pile's part of a run: who joins it, its steps, who leaves it or falls asleep.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A ball that has so many impacts within so many seconds, among so many others, joins a crowd:
+/// A ball that has so many impacts within so many seconds, among so many others, joins a pile:
 /// from there on a step costs less than the impacts that it stands for.
 constexpr int kManyImpacts = 8;
 constexpr double kImpactSeconds = 8e-3;
@@ -19,7 +19,7 @@ constexpr std::size_t kManyBalls = 24;
 /// Balls stand together when their gap is below this part of the smaller radius.
 constexpr double kTogether = 0.2;
 
-/// A ball of a crowd rests when it has been slower than this fraction of the speed that gravity
+/// A ball of a pile rests when it has been slower than this fraction of the speed that gravity
 /// gives in the longest step, for so many seconds: what sets it in motion is below 4e-4 g.
 constexpr double kCalmFraction = 1e-2;
 constexpr double kCalmSeconds = 0.05;
@@ -35,10 +35,10 @@ constexpr int kKindSteps = 8;
 
 }  // namespace
 
-// ---- Into the crowd
+// ---- Into the pile
 // ------------------------------------------------------------------------------
 
-/// Called for each ball of an impact; one that has too many joins the crowd.
+/// Called for each ball of an impact; one that has too many joins the pile.
 void ExactRun::note_impact(int ball, double now) {
     if (world_.scene.simulation.gravity.isZero(0) || world_.balls.size() < kManyBalls) return;
     ExactBall& b = world_.ball(ball);
@@ -48,7 +48,7 @@ void ExactRun::note_impact(int ball, double now) {
     }
     if (++b.recent_impacts < kManyImpacts) return;
     b.recent_impacts = 0;
-    if (stand_together(ball, now)) want_in_crowd(ball, now);
+    if (stand_together(ball, now)) want_in_pile(ball, now);
 }
 
 bool ExactRun::stand_together(int ball, double now) {
@@ -66,13 +66,13 @@ bool ExactRun::stand_together(int ball, double now) {
     return group.size() >= kManyBalls;
 }
 
-void ExactRun::want_in_crowd(int ball, double now) {
-    crowd_.want(ball);
+void ExactRun::want_in_pile(int ball, double now) {
+    pile_.want(ball);
     if (next_step_ == kInfinity) next_step_ = now;
 }
 
-/// The ball's island, lasting contact and predictions end: the crowd has it.
-void ExactRun::enter_crowd(int ball, double now) {
+/// The ball's island, lasting contact and predictions end: the pile has it.
+void ExactRun::enter_pile(int ball, double now) {
     ExactBall& b = world_.ball(ball);
     for (const Link& link : links_.of(ball)) {
         if (link.partner.is_surface) continue;
@@ -84,43 +84,43 @@ void ExactRun::enter_crowd(int ball, double now) {
     const BallState at = world_.state(ball, now);
     b.surface = -1;
     b.stepped = b.asleep = false;
-    b.crowded = true;
-    b.phase_end = b.row_due = kInfinity;
+    b.in_pile = true;
+    b.phase_end = b.event_due = kInfinity;
     begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
 }
 
-bool ExactRun::meets_crowd(const Prediction& p) const {
+bool ExactRun::meets_pile(const Prediction& p) const {
     return !p.partner.is_surface &&
-           (world_.ball(p.ball).crowded || world_.ball(p.partner.index).crowded);
+           (world_.ball(p.ball).in_pile || world_.ball(p.partner.index).in_pile);
 }
 
 // ---- A step
 // ---------------------------------------------------------------------------------------
 
-void ExactRun::step_crowd(double now) {
+void ExactRun::step_pile(double now) {
     if (world_.grid)
-        for (const int ball : crowd_.awake()) {
+        for (const int ball : pile_.awake()) {
             if (!world_.grid->in_cell(ball)) continue;
             const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
             if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
         }
     taken_.clear();
-    crowd_.gather(now, links_, taken_);
-    for (const int ball : taken_) enter_crowd(ball, now);
-    crowd_.solve();
+    pile_.gather(now, links_, taken_);
+    for (const int ball : taken_) enter_pile(ball, now);
+    pile_.solve();
     ++report_.steps;
-    for (const int ball : crowd_.awake()) move_with_crowd(ball, now);
-    for (CrowdPair& pair : crowd_.pairs()) state_pair(pair, now);
-    next_step_ = now + crowd_.seconds();
+    for (const int ball : pile_.awake()) move_with_pile(ball, now);
+    for (PilePair& pair : pile_.pairs()) state_pair(pair, now);
+    next_step_ = now + pile_.seconds();
 
-    taken_ = crowd_.awake();
-    for (const int ball : taken_) leave_crowd(ball, now);
-    crowd_.tidy();
-    if (crowd_.empty()) next_step_ = kInfinity;
+    taken_ = pile_.awake();
+    for (const int ball : taken_) leave_pile(ball, now);
+    pile_.tidy();
+    if (pile_.empty()) next_step_ = kInfinity;
 }
 
-void ExactRun::move_with_crowd(int ball, double now) {
-    const CrowdBall& c = crowd_.of(ball);
+void ExactRun::move_with_pile(int ball, double now) {
+    const PileBall& c = pile_.of(ball);
     const Piece& piece = world_.ball(ball).piece;
     const Vec3& gravity = world_.scene.simulation.gravity;
     // A flight goes on.
@@ -128,22 +128,22 @@ void ExactRun::move_with_crowd(int ball, double now) {
     BallState at = c.at;
     at.velocity = c.started.linear;
     at.spin = c.started.spin;
-    const double h = crowd_.seconds();
+    const double h = pile_.seconds();
     const Vec3 a = c.pushed ? Vec3((c.after.linear - at.velocity) / h) : gravity;
     const Vec3 turn = c.pushed ? Vec3((c.after.spin - at.spin) / h) : Vec3(Vec3::Zero());
     begin_piece(ball, now, at, a, turn);
 }
 
-/// Out of the crowd, into flight or onto a surface, or to sleep.
-void ExactRun::leave_crowd(int ball, double now) {
-    CrowdBall& c = crowd_.of(ball);
+/// Out of the pile, into flight or onto a surface, or to sleep.
+void ExactRun::leave_pile(int ball, double now) {
+    PileBall& c = pile_.of(ball);
     const Velocities velocities = c.started;
-    if (c.near <= 1 && leaves_crowd_alone(ball, now, velocities)) return;
-    const double calm = kCalmFraction * 0.5 * crowd_.slow_speed(), r = world_.ball(ball).radius;
+    if (c.near <= 1 && leaves_pile_alone(ball, now, velocities)) return;
+    const double calm = kCalmFraction * 0.5 * pile_.slow_speed(), r = world_.ball(ball).radius;
     const bool is_calm =
         c.started.linear.norm() < calm && c.after.linear.norm() < calm &&
         (r * c.after.spin.norm() < calm || r * (c.after.spin - c.started.spin).norm() < 0.1 * calm);
-    c.calm_seconds = is_calm && c.pushed ? c.calm_seconds + crowd_.seconds() : 0;
+    c.calm_seconds = is_calm && c.pushed ? c.calm_seconds + pile_.seconds() : 0;
     if (c.calm_seconds < kCalmSeconds) return;
 
     ExactBall& b = world_.ball(ball);
@@ -153,24 +153,24 @@ void ExactRun::leave_crowd(int ball, double now) {
     b.asleep = true;
     begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
     c.load = 0;
-    crowd_.lay_to_sleep(ball);
-    for (CrowdPair& pair : crowd_.pairs()) {
+    pile_.lay_to_sleep(ball);
+    for (PilePair& pair : pile_.pairs()) {
         if (pair.ball != ball && (pair.other.is_surface || pair.other.index != ball)) continue;
         c.load = std::max(c.load, pair.force);
         const int other = pair.ball == ball ? pair.other.index : pair.ball;
         if (!(pair.force > 0) || pair.stated == EventKind::kRest) continue;
-        if (!pair.other.is_surface && !crowd_.asleep(other)) continue;
+        if (!pair.other.is_surface && !pile_.asleep(other)) continue;
         pair.stated = EventKind::kRest;
         if (!pair.from_start) motion_.events.push_back(event_of(pair, EventKind::kRest, now));
     }
     predict(ball, now);
 }
 
-bool ExactRun::leaves_crowd_alone(int ball, double now, const Velocities& velocities) {
-    CrowdBall& c = crowd_.of(ball);
-    const CrowdPair* floor = nullptr;
+bool ExactRun::leaves_pile_alone(int ball, double now, const Velocities& velocities) {
+    PileBall& c = pile_.of(ball);
+    const PilePair* floor = nullptr;
     if (c.near == 1)
-        for (const CrowdPair& pair : crowd_.pairs())
+        for (const PilePair& pair : pile_.pairs())
             if (pair.ball == ball && pair.other.is_surface && pair.force > 0) floor = &pair;
     if (c.near == 1 && floor == nullptr) {
         c.lone_steps = 0;
@@ -182,20 +182,20 @@ bool ExactRun::leaves_crowd_alone(int ball, double now, const Velocities& veloci
         contact = world_.contact_at(ball, floor->other, now);
         if (contact.depth > kDepthOfRadius * world_.ball(ball).radius) return false;
         if (!can_hold(ball, now, contact, velocities)) return false;
-        if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * crowd_.slow_speed())
+        if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * pile_.slow_speed())
             return false;
     }
-    crowd_.release(ball);
+    pile_.release(ball);
     ExactBall& b = world_.ball(ball);
-    b.crowded = false;
+    b.in_pile = false;
     if (floor == nullptr) {
-        fly(ball, now, velocities);
+        begin_flight(ball, now, velocities);
     } else {
         if (floor->stated != EventKind::kLeave) {
             b.surface = floor->other.index;
             b.kind = floor->stated;
         }
-        hold(ball, now, contact, velocities, 0, floor->from_start);
+        begin_flat_contact(ball, now, contact, velocities, 0, floor->from_start);
     }
     predict(ball, now);
     return true;
@@ -204,7 +204,7 @@ bool ExactRun::leaves_crowd_alone(int ball, double now, const Velocities& veloci
 // ---- Rows
 // -----------------------------------------------------------------------------------------
 
-void ExactRun::state_pair(CrowdPair& pair, double now) {
+void ExactRun::state_pair(PilePair& pair, double now) {
     if (pair.bounces && pair.impact_push > 0) {
         Event e = event_of(pair, EventKind::kImpact, now);
         e.approach_speed = pair.closing;
@@ -215,15 +215,15 @@ void ExactRun::state_pair(CrowdPair& pair, double now) {
         motion_.events.push_back(e);
         ++report_.impacts;
     }
-    if (pair.stated != EventKind::kLeave && pair.gap > crowd_.parting_gap()) {
+    if (pair.stated != EventKind::kLeave && pair.gap > pile_.separation_gap()) {
         pair.stated = pair.candidate = EventKind::kLeave;
         motion_.events.push_back(event_of(pair, EventKind::kLeave, now));
     }
     if (!(pair.force > 0)) return;
     const EventKind kind =
-        pair.slip > 0.1 * crowd_.slow_speed() ? EventKind::kSlide : EventKind::kRoll;
+        pair.slip > 0.1 * pile_.slow_speed() ? EventKind::kSlide : EventKind::kRoll;
     if (pair.stated == EventKind::kRest && kind == EventKind::kRoll &&
-        pair.slip < kCalmFraction * crowd_.slow_speed())
+        pair.slip < kCalmFraction * pile_.slow_speed())
         return;
     if (kind != pair.candidate) {
         pair.candidate = kind;
@@ -235,7 +235,7 @@ void ExactRun::state_pair(CrowdPair& pair, double now) {
     pair.stated = kind;
 }
 
-Event ExactRun::event_of(const CrowdPair& pair, EventKind kind, double now) const {
+Event ExactRun::event_of(const PilePair& pair, EventKind kind, double now) const {
     Event e;
     e.time = now;
     e.ball = pair.ball;

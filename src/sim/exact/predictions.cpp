@@ -50,16 +50,16 @@ double series_seconds(double first, double restitution) {
 
 /// Two balls, one of them at least on a curved piece, which ends with its phase. As far as that is
 /// known, whatever comes before: the answer's last digits must not depend on who else was asked.
-TimeOfImpact impact_of_curved(const ExactBall& a, const ExactBall& b, double sum, bool touching,
-                              double from) {
+TimeOfImpact impact_at_high_degree(const ExactBall& a, const ExactBall& b, double sum,
+                                   bool touching, double from) {
     double until = std::numeric_limits<double>::infinity();
     if (a.piece.curve) until = std::min(until, a.phase_end);
     if (b.piece.curve) until = std::min(until, b.phase_end);
     if (!(until > from)) return {};
     const double seconds = until - from;
-    return curved_impact_with_sphere(
-        curved_path(a.piece, from, seconds).relative_to(curved_path(b.piece, from, seconds)), sum,
-        touching);
+    return impact_with_sphere(high_degree_path(a.piece, from, seconds)
+                                  .relative_to(high_degree_path(b.piece, from, seconds)),
+                              sum, touching);
 }
 
 }  // namespace
@@ -69,18 +69,18 @@ TimeOfImpact impact_of_curved(const ExactBall& a, const ExactBall& b, double sum
 
 void ExactRun::predict(int ball, double now) {
     const ExactBall& b = world_.ball(ball);
-    if (b.crowded && !b.asleep) return;
+    if (b.in_pile && !b.asleep) return;
     Prediction& next = next_[static_cast<std::size_t>(ball)];
     next = {};
-    next.time = std::min(b.phase_end, b.row_due);
+    next.time = std::min(b.phase_end, b.event_due);
     next.ball = ball;
     next.stamp = b.stamp;
-    if (!b.crowded) consider_surfaces(ball, now);
+    if (!b.in_pile) find_impacts_with_surfaces(ball, now);
     if (world_.grid && world_.grid->in_cell(ball)) {
         const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
         if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
     }
-    world_.for_each_near(ball, [&](int other) { consider_ball(ball, other, now); });
+    world_.for_each_near(ball, [&](int other) { find_impact_with_ball(ball, other, now); });
     enqueue(ball, now);
 }
 
@@ -98,7 +98,7 @@ void ExactRun::enqueue(int ball, double now) {
         for (int i = 0; i < 3; ++i) {
             const auto low = static_cast<double>(cell[static_cast<std::size_t>(i)]) * size;
             if (piece.curve) {
-                const CurvedPath curved = curved_path(piece, now, std::max(seconds, 0.0));
+                const HighDegreePath curved = high_degree_path(piece, now, std::max(seconds, 0.0));
                 seconds = seconds_above(curved, Vec3::Unit(i), low - margin);
                 seconds = std::min(seconds,
                                    seconds_above(curved, -Vec3::Unit(i), -(low + size + margin)));
@@ -111,9 +111,9 @@ void ExactRun::enqueue(int ball, double now) {
     }
     const double time = std::min(next.time, next.leaves_cell);
     if (time <= end_)
-        due_.put(ball, time);
+        queue_.put(ball, time);
     else
-        due_.drop(ball);
+        queue_.drop(ball);
 }
 
 /// A ball has left its cell: only the cells that come into reach have to be looked at.
@@ -132,7 +132,7 @@ void ExactRun::change_cell(int ball, double now) {
         side = step;
     }
     if (moved > 0) grid.move(ball, to);
-    const auto look = [&](int other) { consider_ball(ball, other, now); };
+    const auto look = [&](int other) { find_impact_with_ball(ball, other, now); };
     if (moved == 1 && std::abs(side) == 1)
         world_.for_each_in_layer(ball, axis, side, look);
     else if (moved > 0)
@@ -166,11 +166,11 @@ void ExactRun::fit_grid(double now) {
 // so the answer does not depend on when, and how often, it is asked for.
 
 /// Planes first: they are quick to look at, and what the ball meets there shortens the look ahead.
-void ExactRun::consider_surfaces(int ball, double now) {
+void ExactRun::find_impacts_with_surfaces(int ball, double now) {
     const ExactBall& b = world_.ball(ball);
     const double& found = next_[static_cast<std::size_t>(ball)].time;
     for (const int plane : world_.planes)
-        if (plane != b.surface) consider_surface(ball, plane, now);
+        if (plane != b.surface) find_impact_with_surface(ball, plane, now);
     double until = std::min(found, end_);
     if (!(until > now) || world_.bounded_surfaces.empty()) return;
     Box3 ahead = bounds_of(world_.path(ball, now), 0, until - now);
@@ -183,15 +183,15 @@ void ExactRun::consider_surfaces(int ball, double now) {
         return world_.surface_tree->is_near(surface, ahead, world_.reach(ball));
     };
     world_.for_each_surface_ahead(ball, now, until - now, [&](int surface) {
-        if (surface != b.surface && is_ahead(surface)) consider_surface(ball, surface, now);
+        if (surface != b.surface && is_ahead(surface)) find_impact_with_surface(ball, surface, now);
     });
 }
 
-void ExactRun::consider_surface(int ball, int surface, double now) {
+void ExactRun::find_impact_with_surface(int ball, int surface, double now) {
     const Partner partner{true, surface};
     const double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
     if (until <= now) return;
-    const bool stepped = is_stepped(world_.ball(ball));
+    const bool stepped = has_island(world_.ball(ball));
     if (stepped && (links_.linked(ball, partner) || is_beside_link(ball, surface, now) ||
                     joins_island(partner, ball, now)))
         return;
@@ -208,13 +208,13 @@ void ExactRun::consider_surface(int ball, int surface, double now) {
     TimeOfImpact toi{ImpactState::kHit, 0};
     if (!touching || -separation <= still)
         toi = world_.ball(ball).piece.curve
-                  ? curved_impact_with_surface(curved_path(world_.ball(ball).piece, from,
-                                                           world_.ball(ball).phase_end - from),
-                                               radius, shape, touching)
+                  ? impact_with_surface(high_degree_path(world_.ball(ball).piece, from,
+                                                         world_.ball(ball).phase_end - from),
+                                        radius, shape, touching)
                   : impact_with_surface(path, radius, shape, touching, until - from);
     if (toi.state == ImpactState::kHit || toi.state == ImpactState::kPressed)
         toi = beside_held(ball, surface, toi, from);
-    accept(partner, ball, toi, touching, separation, from, now);
+    keep_if_earlier(partner, ball, toi, touching, separation, from, now);
 }
 
 /// What is left of meeting a surface where another one holds the ball in the same place: nothing
@@ -254,19 +254,19 @@ bool ExactRun::is_beside_link(int ball, int surface, double now) const {
     });
 }
 
-void ExactRun::consider_ball(int ball, int other, double now) {
+void ExactRun::find_impact_with_ball(int ball, int other, double now) {
     const Partner partner{false, other};
     const ExactBall& a = world_.ball(ball);
     const ExactBall& b = world_.ball(other);
     double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
-    // The steps of a crowd see what is near. What is sent its way between two of them is caught at
+    // The steps of a pile see what is near. What is sent its way between two of them is caught at
     // once, and so is what meets a sleeper.
-    const bool crowd = a.crowded || b.crowded;
-    if (a.crowded && b.crowded) return;
-    if (crowd && !(a.crowded ? a : b).asleep) until = std::min(until, next_step_);
+    const bool pile = a.in_pile || b.in_pile;
+    if (a.in_pile && b.in_pile) return;
+    if (pile && !(a.in_pile ? a : b).asleep) until = std::min(until, next_step_);
     if (until <= now) return;
     // What ODE steps is known to the gap that makes a link.
-    const bool stepped = !crowd && (is_stepped(a) || is_stepped(b));
+    const bool stepped = !pile && (has_island(a) || has_island(b));
     if (stepped && (links_.linked(ball, partner) || joins_island(partner, ball, now))) return;
     const double from = stepped ? now : std::max(a.piece.start, b.piece.start);
     const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
@@ -285,10 +285,10 @@ void ExactRun::consider_ball(int ball, int other, double now) {
     if (touching) separation = closing / std::sqrt(distance2);
     const double still = kStillFraction * (path_a.velocity.norm() + path_b.velocity.norm()) +
                          a.rounding_speed + b.rounding_speed;
-    if (!touching || (-separation <= still && !crowd))
-        toi = curved ? impact_of_curved(a, b, sum, touching, from)
+    if (!touching || (-separation <= still && !pile))
+        toi = curved ? impact_at_high_degree(a, b, sum, touching, from)
                      : impact_with_sphere(path, sum, touching, until - from);
-    accept(partner, ball, toi, touching && !crowd, separation, from, now);
+    keep_if_earlier(partner, ball, toi, touching && !pile, separation, from, now);
 }
 
 /// Whether something that ODE steps is near and slow enough for a lasting contact: then the ball's
@@ -310,7 +310,7 @@ bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
 /// Two that have just parted, but go on to touch: rounding alone says that they press.
 bool ExactRun::rests_against(int ball, const Partner& partner, double now) {
     const Contact c = world_.contact_at(ball, partner, now);
-    if (parting_of(c, now) == nullptr) return false;
+    if (separation_of(c, now) == nullptr) return false;
     Vec3 a = world_.ball(c.ball).piece.acceleration_at(now);
     if (!c.other.is_surface) a -= world_.ball(c.other.index).piece.acceleration_at(now);
     return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
@@ -324,17 +324,17 @@ bool ExactRun::flies_along(int ball, const Partner& partner, double now) const {
 }
 
 /// What touches will go on to do so.
-void ExactRun::press(int ball, const Partner& partner, double now, double row_due) {
+void ExactRun::press(int ball, const Partner& partner, double now, double event_due) {
     const Contact contact = world_.contact_at(ball, partner, now);
-    Parting* parting = parting_of(contact, now);
+    Separation* parting = separation_of(contact, now);
     if (parting != nullptr) parting->pressed = true;
-    note_landing(contact, now, row_due);
+    note_landing(contact, now, event_due);
     join_at_once(ball, now);
 }
 
 /// The ball is in a contact without a closed form: its island takes a step at once.
 void ExactRun::join_at_once(int ball, double now) {
-    join(ball, now, world_.velocities(ball, now));
+    enter_island(ball, now, world_.velocities(ball, now));
     Prediction& next = next_[static_cast<std::size_t>(ball)];
     next = {};
     next.time = now;
@@ -347,8 +347,8 @@ double ExactRun::gap_at(int ball, const Partner& partner, double time) const {
 }
 
 /// Takes an impact over into the ball's prediction if it comes first.
-void ExactRun::accept(const Partner& partner, int ball, const TimeOfImpact& toi, bool touching,
-                      double separation, double from, double now) {
+void ExactRun::keep_if_earlier(const Partner& partner, int ball, const TimeOfImpact& toi,
+                               bool touching, double separation, double from, double now) {
     if (toi.state == ImpactState::kMiss) return;
     if (toi.state == ImpactState::kPressed) {
         if (!rests_against(ball, partner, now) && !flies_along(ball, partner, now))

@@ -8,7 +8,7 @@ namespace carom {
 
 bool ExactRun::at_rest(int ball) const {
     const ExactBall& b = world_.ball(ball);
-    return b.asleep || (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.row_due));
+    return b.asleep || (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.event_due));
 }
 
 bool ExactRun::all_at_rest() {
@@ -26,13 +26,13 @@ bool ExactRun::all_at_rest() {
 /// What a ball does, for people.
 std::string ExactRun::doing(int ball) const {
     const ExactBall& b = world_.ball(ball);
-    if (b.crowded) return "moves in a pile";
+    if (b.in_pile) return "moves in a pile";
     const auto on = [this](const char* verb, const Partner& partner) {
         return std::string(verb) + " on " + world_.name(partner);
     };
     if (b.surface >= 0) {
         const Partner surface{true, b.surface};
-        if (!std::isinf(b.row_due)) return on("bounces", surface);
+        if (!std::isinf(b.event_due)) return on("bounces", surface);
         return on(b.kind == EventKind::kRoll ? "rolls" : "slides", surface);
     }
     if (!b.stepped) return "flies";

@@ -72,14 +72,14 @@ void Seeds::add(const Contact& contact) {
 // ---- Who touches whom
 // ---------------------------------------------------------------------------
 
-Cluster::Cluster(ExactWorld& world) : world_(world), place_(world.balls.size(), -1) {}
+ImpactCluster::ImpactCluster(ExactWorld& world) : world_(world), place_(world.balls.size(), -1) {}
 
-std::size_t Cluster::index_of(int ball) const {
+std::size_t ImpactCluster::index_of(int ball) const {
     CAROM_CHECK(has(ball), ==, true);
     return static_cast<std::size_t>(place_[static_cast<std::size_t>(ball)]);
 }
 
-void Cluster::add_ball(int ball) {
+void ImpactCluster::add_ball(int ball) {
     if (has(ball)) return;
     place_[static_cast<std::size_t>(ball)] = static_cast<int>(balls_.size());
     balls_.push_back(ball);
@@ -90,24 +90,24 @@ void Cluster::add_ball(int ball) {
     largest_speed_ = std::max(largest_speed_, now.linear.norm() + b.radius * now.spin.norm());
 }
 
-void Cluster::add(const Contact& contact) {
+void ImpactCluster::add(const Contact& contact) {
     contacts_.push_back(contact);
     add_ball(contact.ball);
     if (!contact.other.is_surface) add_ball(contact.other.index);
 }
 
 /// Whether a contact is among those of the ball at hand already.
-bool Cluster::is_known(int ball, const Partner& other) const {
+bool ImpactCluster::is_known(int ball, const Partner& other) const {
     for (std::size_t i = first_of_ball_; i < contacts_.size(); ++i)
         if (contacts_[i].ball == ball && contacts_[i].other == other) return true;
     return false;
 }
 
-void Cluster::add_new(const Contact& contact) {
+void ImpactCluster::add_new(const Contact& contact) {
     if (!is_known(contact.ball, contact.other)) add(contact);
 }
 
-void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
+void ImpactCluster::gather(const Contact& seed, const Seeds& seeds, double time) {
     for (const int ball : balls_) place_[static_cast<std::size_t>(ball)] = -1;
     balls_.clear();
     bodies_.clear();
@@ -134,7 +134,7 @@ void Cluster::gather(const Contact& seed, const Seeds& seeds, double time) {
     }
 }
 
-void Cluster::touch_surfaces(int ball) {
+void ImpactCluster::touch_surfaces(int ball) {
     const Vec3 x = bodies_[index_of(ball)].position;
     const double radius = world_.ball(ball).radius;
     const double far = kFar * (radius + x.cwiseAbs().maxCoeff()) + world_.place_rounding;
@@ -147,13 +147,13 @@ void Cluster::touch_surfaces(int ball) {
     });
 }
 
-void Cluster::touch_balls(int ball) {
+void ImpactCluster::touch_balls(int ball) {
     const std::size_t place = index_of(ball);
     const Vec3 x = bodies_[place].position;
     const double radius = world_.ball(ball).radius;
     world_.for_each_near(ball, [&](int other) {
         if (has(other) && index_of(other) < place) return;  // looked at from the other side
-        if (world_.ball(other).crowded) return;             // met by steps of its own
+        if (world_.ball(other).in_pile) return;             // met by steps of its own
         // Far pairs are the common case: a little more than the sum of the radii excludes them.
         const double reach = 1.001 * (radius + world_.ball(other).radius);
         const Vec3 y = world_.position(other, time_);
@@ -166,7 +166,7 @@ void Cluster::touch_balls(int ball) {
 // ---- Resolving
 // ----------------------------------------------------------------------------------
 
-double Cluster::approach(const Contact& c) const {
+double ImpactCluster::approach(const Contact& c) const {
     const Velocities other =
         c.other.is_surface ? Velocities{} : bodies_[index_of(c.other.index)].velocities;
     return -relative_velocity(c, bodies_[index_of(c.ball)].velocities, other).dot(c.normal);
@@ -174,7 +174,7 @@ double Cluster::approach(const Contact& c) const {
 
 /// The contacts that approach at least so fast, for the solver: only the bodies at hand, under
 /// numbers of its own.
-void Cluster::choose(double slowest) {
+void ImpactCluster::choose(double slowest) {
     chosen_.clear();
     here_.clear();
     solver_bodies_.clear();
@@ -199,8 +199,8 @@ void Cluster::choose(double slowest) {
     }
 }
 
-void Cluster::solve(ImpactSolver& solver, bool inelastic, double enough,
-                    std::vector<Contact>& impacts) {
+void ImpactCluster::solve(ImpactSolver& solver, bool inelastic, double enough,
+                          std::vector<Contact>& impacts) {
     if (inelastic)
         for (Contact& c : solver_contacts_) c.restitution = 0;
     solver.solve(solver_bodies_, solver_contacts_, time_);
@@ -222,7 +222,7 @@ void Cluster::solve(ImpactSolver& solver, bool inelastic, double enough,
     }
 }
 
-void Cluster::end_impacts(std::vector<Contact>& impacts) {
+void ImpactCluster::end_impacts(std::vector<Contact>& impacts) {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         contacts_[i].separation_speed = -approach(contacts_[i]);
         if (const int entry = impact_of_[i]; entry >= 0)
@@ -232,8 +232,8 @@ void Cluster::end_impacts(std::vector<Contact>& impacts) {
 }
 
 /// The common case, without rounds: nothing else hangs on the contact.
-void Cluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts,
-                             const Limits& limits) {
+void ImpactCluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts,
+                                   const Limits& limits) {
     Contact& contact = contacts_.front();
     first_approach_ = approach(contact);
     contact.separation_speed = -first_approach_;
@@ -256,7 +256,7 @@ void Cluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts
 /// wall and another of mass ratio r about pi sqrt(r) (G. Galperin, "Playing pool with the number
 /// pi", 2003), or, where each loses a part of the speed, some ten times as many until what is left
 /// is rounding.
-std::size_t Cluster::rounds_to_end() const {
+std::size_t ImpactCluster::rounds_to_end() const {
     double lightest = bodies_.front().mass, heaviest = lightest;
     for (const ImpactBody& b : bodies_) {
         lightest = std::min(lightest, b.mass);
@@ -267,7 +267,8 @@ std::size_t Cluster::rounds_to_end() const {
     return static_cast<std::size_t>(std::min(rounds, kMostRounds));
 }
 
-void Cluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits) {
+void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
+                            const Limits& limits) {
     if (contacts_.size() == 1) {
         resolve_single(solver, impacts, limits);
         return;
@@ -294,7 +295,7 @@ void Cluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts, const
     end_impacts(impacts);
 }
 
-void Cluster::contacts_of(int ball, std::vector<Contact>& result) const {
+void ImpactCluster::contacts_of(int ball, std::vector<Contact>& result) const {
     result.clear();
     for (const Contact& c : contacts_) {
         if (c.ball != ball && (c.other.is_surface || c.other.index != ball)) continue;
@@ -303,17 +304,18 @@ void Cluster::contacts_of(int ball, std::vector<Contact>& result) const {
 }
 
 /// Ends an impact that a pile passes to and fro: nothing rebounds any more.
-void Cluster::press_together() {
+void ImpactCluster::press_together() {
     std::vector<Contact> contacts = contacts_;
     for (Contact& c : contacts) {
         c.ball = static_cast<int>(index_of(c.ball));
         if (!c.other.is_surface) c.other.index = static_cast<int>(index_of(c.other.index));
     }
     std::vector<Vec3> pushes(contacts.size(), Vec3::Zero());
-    solve_island_by_sweeps(bodies_, contacts, std::vector<double>(contacts.size(), 0.0), pushes);
+    solve_island_by_gauss_seidel(bodies_, contacts, std::vector<double>(contacts.size(), 0.0),
+                                 pushes);
 }
 
-std::vector<Contact> Cluster::contacts_of(int ball) const {
+std::vector<Contact> ImpactCluster::contacts_of(int ball) const {
     std::vector<Contact> result;
     contacts_of(ball, result);
     return result;

@@ -40,9 +40,9 @@ class Seeds {
 ///
 /// One object serves all clusters of a run, so that an event allocates nothing once its vectors
 /// have grown.
-class Cluster {
+class ImpactCluster {
   public:
-    explicit Cluster(ExactWorld& world);
+    explicit ImpactCluster(ExactWorld& world);
 
     /// Grown from one of the contacts that are known to be met now, whatever rounding says of their
     /// gaps; the other `seeds` belong to it where they share a ball with it.

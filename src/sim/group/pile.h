@@ -10,8 +10,8 @@
 
 namespace carom {
 
-/// Two bodies of a crowd that are near each other, and what is known of their contact.
-struct CrowdPair {
+/// Two bodies of a pile that are near each other, and what is known of their contact.
+struct PilePair {
     int ball = -1;  ///< of two balls the scene's first one
     Partner other;
     double restitution = 1, friction = 0;
@@ -39,8 +39,8 @@ struct CrowdPair {
     }
 };
 
-/// A ball of the scene, as far as the crowd has to do with it.
-struct CrowdBall {
+/// A ball of the scene, as far as the pile has to do with it.
+struct PileBall {
     bool member = false;
     bool asleep = false;      ///< a member at rest: it does not move until something wakes it
     bool wanted = false;      ///< becomes a member at the next step
@@ -55,25 +55,25 @@ struct CrowdBall {
     bool pushed = false;      ///< something acted on it in this step
 };
 
-/// Steps of a crowd. Its members move at constant accelerations from one step to the next; each
+/// Steps of a pile. Its members move at constant accelerations from one step to the next; each
 /// step has two parts:
 ///   impacts: contacts that close faster than gravity makes them, and before the step ends, rebound
 ///     at its start by Newton's law, all others passing it on: they end the part at -gap/h or more;
 ///   forces: the midpoint rule of IslandSolver, (v + v')_n h / 2 >= -gap.
 /// Neither gains energy, and what the unfinished iterations would leave of a gain is taken out of
 /// the speeds. The step is as long as the fastest closing pair allows.
-class Crowd {
+class Pile {
   public:
-    explicit Crowd(const ExactWorld& world);
+    explicit Pile(const ExactWorld& world);
 
     bool empty() const { return awake_.empty() && wanted_.empty(); }
     bool member(int ball) const { return of(ball).member; }
     bool asleep(int ball) const { return of(ball).asleep; }
-    CrowdBall& of(int ball) { return balls_[static_cast<std::size_t>(ball)]; }
-    const CrowdBall& of(int ball) const { return balls_[static_cast<std::size_t>(ball)]; }
+    PileBall& of(int ball) { return balls_[static_cast<std::size_t>(ball)]; }
+    const PileBall& of(int ball) const { return balls_[static_cast<std::size_t>(ball)]; }
     const std::vector<int>& awake() const { return awake_; }  ///< sorted
-    const std::vector<CrowdPair>& pairs() const { return pairs_; }
-    std::vector<CrowdPair>& pairs() { return pairs_; }
+    const std::vector<PilePair>& pairs() const { return pairs_; }
+    std::vector<PilePair>& pairs() { return pairs_; }
     double seconds() const { return seconds_; }
 
     /// The ball shall be taken in at the next step.
@@ -93,18 +93,18 @@ class Crowd {
     double slow_speed() const;
 
     /// Of a pair that has parted again, and slept or slides no more.
-    double parting_gap() const;
+    double separation_gap() const;
 
   private:
-    CrowdBody& body(int ball) { return bodies_[static_cast<std::size_t>(ball)]; }
+    PileBody& body(int ball) { return bodies_[static_cast<std::size_t>(ball)]; }
     void take(int ball, double now, double wake_speed, const Links& links);
     void find_pairs(double now, const Links& links);
     void add_pairs_of(int ball, double now, const Links& links, bool all);
-    void look_at(CrowdPair& pair, double now);
-    bool draws_in(const CrowdPair& pair, double now, const Links& links, std::vector<int>& taken);
+    void look_at(PilePair& pair, double now);
+    bool draws_in(const PilePair& pair, double now, const Links& links, std::vector<int>& taken);
     void choose_seconds();
     void build_rows();
-    void aim_at_mid_step(CrowdRow& row, const CrowdPair& pair) const;
+    void aim_at_mid_step(PileRow& row, const PilePair& pair) const;
     void solve_impacts();
     void solve_forces();
     double kinetic_energy() const;
@@ -115,12 +115,12 @@ class Crowd {
     Vec3 velocity_of(int ball, double now) const;
 
     const ExactWorld& world_;
-    std::vector<CrowdBall> balls_;   ///< per ball of the scene
-    std::vector<CrowdBody> bodies_;  ///< the same
+    std::vector<PileBall> balls_;   ///< per ball of the scene
+    std::vector<PileBody> bodies_;  ///< the same
     std::vector<int> awake_, wanted_;
-    std::vector<CrowdPair> pairs_, old_pairs_;
+    std::vector<PilePair> pairs_, old_pairs_;
     std::vector<std::size_t> active_;  ///< the pairs in reach, one row each
-    std::vector<CrowdRow> rows_;
+    std::vector<PileRow> rows_;
     std::vector<Vec3> shift_;  ///< per ball
     double seconds_ = 0;
     double fastest_closing_ = 0;  ///< m/s

@@ -1,4 +1,4 @@
-// Who belongs to a crowd, and who is near whom in it.
+// Who belongs to a pile, and who is near whom in it.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-/// The longest step of a crowd [s], and how often it may be halved.
+/// The longest step of a pile [s], and how often it may be halved.
 constexpr double kLongestStep = 1.0 / 1000;
 constexpr int kMostHalvings = 12;
 
@@ -33,7 +33,7 @@ constexpr double kParted = 1e-3;
 
 }  // namespace
 
-Crowd::Crowd(const ExactWorld& world)
+Pile::Pile(const ExactWorld& world)
     : world_(world),
       balls_(world.balls.size()),
       bodies_(world.balls.size()),
@@ -47,30 +47,30 @@ Crowd::Crowd(const ExactWorld& world)
         if (g * longest_ * longest_ > kStepOfRadius * smallest_radius_) longest_ *= 0.5;
 }
 
-double Crowd::slow_speed() const { return 2 * world_.scene.simulation.gravity.norm() * longest_; }
+double Pile::slow_speed() const { return 2 * world_.scene.simulation.gravity.norm() * longest_; }
 
-double Crowd::parting_gap() const { return kParted * smallest_radius_; }
+double Pile::separation_gap() const { return kParted * smallest_radius_; }
 
-Vec3 Crowd::position_of(int ball, double now) const {
+Vec3 Pile::position_of(int ball, double now) const {
     return of(ball).member ? of(ball).at.position : world_.position(ball, now);
 }
 
-Vec3 Crowd::velocity_of(int ball, double now) const {
+Vec3 Pile::velocity_of(int ball, double now) const {
     return of(ball).member ? of(ball).at.velocity : world_.velocities(ball, now).linear;
 }
 
 // ---- Members
 // ------------------------------------------------------------------------------------
 
-void Crowd::want(int ball) {
+void Pile::want(int ball) {
     if (of(ball).wanted || (of(ball).member && !of(ball).asleep)) return;
     of(ball).wanted = true;
     wanted_.push_back(ball);
 }
 
 /// Makes a ball a member that is awake.
-void Crowd::take(int ball, double now, double wake_speed, const Links& links) {
-    CrowdBall& b = of(ball);
+void Pile::take(int ball, double now, double wake_speed, const Links& links) {
+    PileBall& b = of(ball);
     const bool known = b.member;  // it slept: its pairs with those awake are there already
     b.member = true;
     b.asleep = b.wanted = false;
@@ -86,24 +86,24 @@ void Crowd::take(int ball, double now, double wake_speed, const Links& links) {
     add_pairs_of(ball, now, links, known);
 }
 
-void Crowd::release(int ball) {
-    CrowdBall& b = of(ball);
+void Pile::release(int ball) {
+    PileBall& b = of(ball);
     b.member = b.asleep = b.wanted = false;
 }
 
-void Crowd::lay_to_sleep(int ball) {
-    CrowdBall& b = of(ball);
+void Pile::lay_to_sleep(int ball) {
+    PileBall& b = of(ball);
     b.asleep = true;
     b.at.velocity.setZero();
-    CrowdBody& as_body = body(ball);
+    PileBody& as_body = body(ball);
     as_body.velocity.setZero();
     as_body.inverse_mass = as_body.inverse_spin = 0;
 }
 
-void Crowd::tidy() {
+void Pile::tidy() {
     std::erase_if(awake_, [this](int ball) { return !of(ball).member || of(ball).asleep; });
     // Of two sleepers nothing is to be solved; the pair is found again when one wakes.
-    std::erase_if(pairs_, [this](const CrowdPair& p) {
+    std::erase_if(pairs_, [this](const PilePair& p) {
         const bool awake = of(p.ball).member && !of(p.ball).asleep;
         return !awake &&
                (p.other.is_surface || !of(p.other.index).member || of(p.other.index).asleep);
@@ -114,12 +114,12 @@ void Crowd::tidy() {
 // --------------------------------------------------------------------------------------
 
 /// The pairs of a ball that are not in the list: a member that is awake has its own there.
-void Crowd::add_pairs_of(int ball, double now, const Links& links, bool slept) {
+void Pile::add_pairs_of(int ball, double now, const Links& links, bool slept) {
     const std::size_t first = pairs_.size();
     const Vec3 x = position_of(ball, now);
     const ExactBall& body = world_.ball(ball);
     const auto add = [&](int a, const Partner& partner, int material) {
-        CrowdPair pair;
+        PilePair pair;
         pair.ball = a;
         pair.other = partner;
         const PairProperties both = world_.pair(world_.ball(a).material, material);
@@ -130,7 +130,7 @@ void Crowd::add_pairs_of(int ball, double now, const Links& links, bool slept) {
             pair.from_start = link->from_start;
         } else if (const ExactBall& held = world_.ball(a);
                    partner.is_surface && held.surface == partner.index) {
-            pair.stated = std::isinf(held.row_due) ? held.kind : EventKind::kLeave;
+            pair.stated = std::isinf(held.event_due) ? held.kind : EventKind::kLeave;
         } else if (slept) {
             pair.stated = EventKind::kRest;
         }
@@ -153,12 +153,12 @@ void Crowd::add_pairs_of(int ball, double now, const Links& links, bool slept) {
     else
         world_.for_each_near(ball, near);
     std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(first), pairs_.end(),
-              [](const CrowdPair& a, const CrowdPair& b) { return a.key() < b.key(); });
+              [](const PilePair& a, const PilePair& b) { return a.key() < b.key(); });
 }
 
 /// All pairs anew; what was known of the old ones stays.
-void Crowd::find_pairs(double now, const Links& links) {
-    const auto by_key = [](const CrowdPair& a, const CrowdPair& b) { return a.key() < b.key(); };
+void Pile::find_pairs(double now, const Links& links) {
+    const auto by_key = [](const PilePair& a, const PilePair& b) { return a.key() < b.key(); };
     std::swap(pairs_, old_pairs_);
     std::sort(old_pairs_.begin(), old_pairs_.end(), by_key);
     pairs_.clear();
@@ -170,7 +170,7 @@ void Crowd::find_pairs(double now, const Links& links) {
     }
     std::sort(pairs_.begin(), pairs_.end(), by_key);
     auto old = old_pairs_.begin();
-    for (CrowdPair& pair : pairs_) {
+    for (PilePair& pair : pairs_) {
         while (old != old_pairs_.end() && old->key() < pair.key()) ++old;
         if (old != old_pairs_.end() && old->key() == pair.key()) pair = *old;
     }
@@ -178,7 +178,7 @@ void Crowd::find_pairs(double now, const Links& links) {
 }
 
 /// Where the two stand, and how fast they close.
-void Crowd::look_at(CrowdPair& pair, double now) {
+void Pile::look_at(PilePair& pair, double now) {
     const Vec3 x = position_of(pair.ball, now), v = velocity_of(pair.ball, now);
     const double radius = world_.ball(pair.ball).radius;
     if (pair.other.is_surface) {
@@ -197,7 +197,7 @@ void Crowd::look_at(CrowdPair& pair, double now) {
     fastest_closing_ = std::max(fastest_closing_, pair.closing);
 }
 
-void Crowd::choose_seconds() {
+void Pile::choose_seconds() {
     seconds_ = longest_;
     for (int i = 0; i < kMostHalvings; ++i)
         if (fastest_closing_ * seconds_ > kStepOfRadius * smallest_radius_) seconds_ *= 0.5;
@@ -207,14 +207,13 @@ void Crowd::choose_seconds() {
 
 /// Whether a pair brings a new ball into the step, or wakes one: then its own pairs have to be
 /// looked at as well.
-bool Crowd::draws_in(const CrowdPair& pair, double now, const Links& links,
-                     std::vector<int>& taken) {
+bool Pile::draws_in(const PilePair& pair, double now, const Links& links, std::vector<int>& taken) {
     if (pair.other.is_surface) return false;
     const int a = pair.ball, b = pair.other.index;
     const auto sleeps = [this](int ball) { return of(ball).member && of(ball).asleep; };
-    const bool parted = pair.touching && pair.gap > parting_gap();
+    const bool parted = pair.touching && pair.gap > separation_gap();
     for (const auto& [ball, by] : {std::pair{a, b}, std::pair{b, a}}) {
-        const CrowdBall& it = of(ball);
+        const PileBall& it = of(ball);
         if (it.member && !it.asleep) continue;
         double wake_speed = 0;
         bool draws = !it.member && pair.gap < slack_;
@@ -233,12 +232,12 @@ bool Crowd::draws_in(const CrowdPair& pair, double now, const Links& links,
     return false;
 }
 
-void Crowd::gather(double now, const Links& links, std::vector<int>& taken) {
+void Pile::gather(double now, const Links& links, std::vector<int>& taken) {
     for (const int ball : awake_) {
-        CrowdBall& b = of(ball);
+        PileBall& b = of(ball);
         b.at = world_.state(ball, now);
         b.wake_speed = 0;
-        CrowdBody& as_body = body(ball);
+        PileBody& as_body = body(ball);
         as_body.velocity = b.at.velocity;
         as_body.rim = world_.ball(ball).radius * b.at.spin;
     }
@@ -265,9 +264,9 @@ void Crowd::gather(double now, const Links& links, std::vector<int>& taken) {
         more = false;
         const auto awake = [this](int ball) { return of(ball).member && !of(ball).asleep; };
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
-            const CrowdPair& at = pairs_[i];
+            const PilePair& at = pairs_[i];
             if (at.other.is_surface || (awake(at.ball) && awake(at.other.index))) continue;
-            const CrowdPair pair = at;  // what is drawn in makes the list grow
+            const PilePair pair = at;  // what is drawn in makes the list grow
             more |= draws_in(pair, now, links, taken);
         }
     }

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 /// Gives an impulse, n x of its tangential part at hand, to a body; `sign` -1 for the other one.
-void push(CrowdBody& body, const Vec3& impulse, const Vec3& turn, double sign) {
+void push(PileBody& body, const Vec3& impulse, const Vec3& turn, double sign) {
     body.velocity += sign * body.inverse_mass * impulse;
     body.rim -= body.inverse_spin * turn;
 }
@@ -16,13 +16,13 @@ void push(CrowdBody& body, const Vec3& impulse, const Vec3& turn, double sign) {
 /// Sets one contact right. Returns whether it changed a body by more than `still`.
 class Relaxation {
   public:
-    Relaxation(std::vector<CrowdBody>& bodies, double still) : bodies_(bodies), still_(still) {}
+    Relaxation(std::vector<PileBody>& bodies, double still) : bodies_(bodies), still_(still) {}
 
-    void prepare(CrowdRow& row) {
-        const CrowdBody& a = body(row.ball);
+    void prepare(PileRow& row) {
+        const PileBody& a = body(row.ball);
         double normal = a.inverse_mass, across = a.inverse_mass + a.inverse_spin;
         if (row.other >= 0) {
-            const CrowdBody& b = body(row.other);
+            const PileBody& b = body(row.other);
             normal += b.inverse_mass;
             across += b.inverse_mass + b.inverse_spin;
         }
@@ -33,10 +33,10 @@ class Relaxation {
         if (row.push > 0) give(row, row.push * row.normal + row.tangential, row.tangential);
     }
 
-    bool relax(CrowdRow& row) {
+    bool relax(PileRow& row) {
         const int since = row.relaxed;
-        CrowdBody& a = body(row.ball);
-        CrowdBody* b = row.other >= 0 ? &body(row.other) : nullptr;
+        PileBody& a = body(row.ball);
+        PileBody* b = row.other >= 0 ? &body(row.other) : nullptr;
         if (a.changed <= since && (b == nullptr || b->changed <= since)) return false;
         row.relaxed = ++clock_;
 
@@ -71,32 +71,32 @@ class Relaxation {
     }
 
   private:
-    CrowdBody& body(int i) { return bodies_[static_cast<std::size_t>(i)]; }
-    void give(CrowdRow& row, const Vec3& impulse, const Vec3& tangential) {
+    PileBody& body(int i) { return bodies_[static_cast<std::size_t>(i)]; }
+    void give(PileRow& row, const Vec3& impulse, const Vec3& tangential) {
         const Vec3 turn = row.normal.cross(tangential);
         push(body(row.ball), impulse, turn, 1);
         if (row.other >= 0) push(body(row.other), impulse, turn, -1);
     }
 
-    std::vector<CrowdBody>& bodies_;
+    std::vector<PileBody>& bodies_;
     double still_;
     int clock_ = 0;
 };
 
 }  // namespace
 
-void sweep_crowd(std::vector<CrowdBody>& bodies, std::vector<CrowdRow>& rows,
-                 const CrowdSweeps& sweeps) {
+void sweep_pile(std::vector<PileBody>& bodies, std::vector<PileRow>& rows,
+                const PileSweeps& sweeps) {
     Relaxation relaxation(bodies, sweeps.still);
-    for (CrowdRow& row : rows) {
+    for (PileRow& row : rows) {
         bodies[static_cast<std::size_t>(row.ball)].changed = 0;
         if (row.other >= 0) bodies[static_cast<std::size_t>(row.other)].changed = 0;
     }
-    for (CrowdRow& row : rows) relaxation.prepare(row);
+    for (PileRow& row : rows) relaxation.prepare(row);
     for (int sweep = 0; sweep < sweeps.most; ++sweep) {
         bool moved = false;
         if (sweep % 2 == 0)
-            for (CrowdRow& row : rows) moved |= relaxation.relax(row);
+            for (PileRow& row : rows) moved |= relaxation.relax(row);
         else
             for (std::size_t i = rows.size(); i-- > 0;) moved |= relaxation.relax(rows[i]);
         if (!moved) break;

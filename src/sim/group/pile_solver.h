@@ -7,9 +7,9 @@
 
 namespace carom {
 
-/// A ball as a crowd sees it. Its spin stands as the speed of its rim, s = R w, so that the
+/// A ball as a pile sees it. Its spin stands as the speed of its rim, s = R w, so that the
 /// velocity of its material point at a contact with the normal n (towards the ball) is v + n x s.
-struct CrowdBody {
+struct PileBody {
     Vec3 velocity = Vec3::Zero();  ///< m/s
     Vec3 rim = Vec3::Zero();       ///< R w, m/s
     double inverse_mass = 0;       ///< 1/kg; 0 for what does not move
@@ -18,7 +18,7 @@ struct CrowdBody {
 };
 
 /// One contact: what it wants, and the impulse that it has given so far.
-struct CrowdRow {
+struct PileRow {
     int ball = -1;
     int other = -1;                  ///< -1 for a surface
     Vec3 normal = Vec3::UnitZ();     ///< unit, towards `ball`
@@ -32,7 +32,7 @@ struct CrowdRow {
 };
 
 /// How long to sweep.
-struct CrowdSweeps {
+struct PileSweeps {
     int most = 12;
     double still = 1e-6;  ///< m/s: smaller changes of a body do not call on its other contacts
 };
@@ -40,19 +40,19 @@ struct CrowdSweeps {
 /// Projected Gauss-Seidel over the impulses with Coulomb's true cone (J. J. Moreau, "Unilateral
 /// contact and dry friction in finite freedom dynamics", 1988), from the impulses that the rows
 /// hold at the start. A contact is only looked at again when one of its bodies has changed since.
-void sweep_crowd(std::vector<CrowdBody>& bodies, std::vector<CrowdRow>& rows,
-                 const CrowdSweeps& sweeps);
+void sweep_pile(std::vector<PileBody>& bodies, std::vector<PileRow>& rows,
+                const PileSweeps& sweeps);
 
 /// Velocity of `ball`'s material point minus the other's at the contact [m/s].
-inline Vec3 relative_velocity(const CrowdRow& row, const std::vector<CrowdBody>& bodies) {
-    const CrowdBody& a = bodies[static_cast<std::size_t>(row.ball)];
+inline Vec3 relative_velocity(const PileRow& row, const std::vector<PileBody>& bodies) {
+    const PileBody& a = bodies[static_cast<std::size_t>(row.ball)];
     if (row.other < 0) return a.velocity + row.normal.cross(a.rim);
-    const CrowdBody& b = bodies[static_cast<std::size_t>(row.other)];
+    const PileBody& b = bodies[static_cast<std::size_t>(row.other)];
     return a.velocity - b.velocity + row.normal.cross(a.rim + b.rim);
 }
 
 /// The part of it along the normal, which spin has no say in.
-inline double normal_speed(const CrowdRow& row, const std::vector<CrowdBody>& bodies) {
+inline double normal_speed(const PileRow& row, const std::vector<PileBody>& bodies) {
     const Vec3& v = bodies[static_cast<std::size_t>(row.ball)].velocity;
     if (row.other < 0) return v.dot(row.normal);
     return (v - bodies[static_cast<std::size_t>(row.other)].velocity).dot(row.normal);

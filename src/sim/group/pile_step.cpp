@@ -1,4 +1,4 @@
-// One step of a crowd: impacts, then forces, then what they leave of overlaps.
+// One step of a pile: impacts, then forces, then what they leave of overlaps.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,8 @@ namespace {
 
 /// Sweeps for the impacts of a step, and for its forces; the forces start from those of the step
 /// before, so that a pile goes on converging while it comes to rest.
-constexpr CrowdSweeps kImpactSweeps{60, 1e-5};
-constexpr CrowdSweeps kForceSweeps{12, 1e-6};
+constexpr PileSweeps kImpactSweeps{60, 1e-5};
+constexpr PileSweeps kForceSweeps{12, 1e-6};
 
 /// What closes faster than this part of slow_speed() is stopped by an impulse at the step's start,
 /// slower things by a force during it.
@@ -30,28 +30,28 @@ constexpr double kOverlapBudget = 0.5;
 
 }  // namespace
 
-double Crowd::kinetic_energy() const {
+double Pile::kinetic_energy() const {
     double sum = 0;
     for (const int ball : awake_) {
-        const CrowdBody& b = bodies_[static_cast<std::size_t>(ball)];
+        const PileBody& b = bodies_[static_cast<std::size_t>(ball)];
         sum += b.velocity.squaredNorm() / b.inverse_mass + b.rim.squaredNorm() / b.inverse_spin;
     }
     return 0.5 * sum;
 }
 
 /// What gravity has given over the step: m g . h (v + v')/2 of all.
-double Crowd::fall_energy() const {
+double Pile::fall_energy() const {
     const Vec3 g = world_.scene.simulation.gravity;
     double sum = 0;
     for (const int ball : awake_) {
-        const CrowdBody& b = bodies_[static_cast<std::size_t>(ball)];
+        const PileBody& b = bodies_[static_cast<std::size_t>(ball)];
         sum += g.dot(of(ball).started.linear + b.velocity) / b.inverse_mass;
     }
     return 0.5 * seconds_ * sum;
 }
 
 /// Takes an energy out of all speeds, evenly: what the unfinished iterations had gained.
-void Crowd::slow_down(double too_much) {
+void Pile::slow_down(double too_much) {
     const double all = kinetic_energy();
     if (!(too_much > 0) || !(all > 0)) return;
     const double factor = std::sqrt(std::max(1 - too_much / all, 0.0));
@@ -65,7 +65,7 @@ void Crowd::slow_down(double too_much) {
 // ---------------------------------------------------------------------------------------
 
 /// The normal of the middle of the step: there uniform rolling keeps its energy.
-void Crowd::aim_at_mid_step(CrowdRow& row, const CrowdPair& pair) const {
+void Pile::aim_at_mid_step(PileRow& row, const PilePair& pair) const {
     row.normal = pair.normal;
     const double half = 0.5 * seconds_;
     const BallState& a = of(pair.ball).at;
@@ -81,11 +81,11 @@ void Crowd::aim_at_mid_step(CrowdRow& row, const CrowdPair& pair) const {
     row.normal = nearest_on(shape, x, world_.ball(pair.ball).radius).normal;
 }
 
-void Crowd::build_rows() {
+void Pile::build_rows() {
     active_.clear();
     rows_.clear();
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-        CrowdPair& pair = pairs_[i];
+        PilePair& pair = pairs_[i];
         pair.bounces = false;
         pair.impact_push = pair.impact_tangential = 0;
         if (!(pair.gap < slack_)) {
@@ -94,7 +94,7 @@ void Crowd::build_rows() {
             continue;
         }
         active_.push_back(i);
-        CrowdRow& row = rows_.emplace_back();
+        PileRow& row = rows_.emplace_back();
         row.ball = pair.ball;
         row.other = pair.other.is_surface ? -1 : pair.other.index;
         row.friction = pair.friction;
@@ -105,11 +105,11 @@ void Crowd::build_rows() {
 // ---- Parts
 // --------------------------------------------------------------------------------------
 
-void Crowd::solve_impacts() {
+void Pile::solve_impacts() {
     bool any = false;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        CrowdPair& pair = pairs_[active_[k]];
-        CrowdRow& row = rows_[k];
+        PilePair& pair = pairs_[active_[k]];
+        PileRow& row = rows_[k];
         const double closing = -normal_speed(row, bodies_);
         pair.bounces = closing > slow_speed() && closing * seconds_ > pair.gap;
         row.target =
@@ -118,10 +118,10 @@ void Crowd::solve_impacts() {
     }
     if (!any) return;
     const double before = kinetic_energy();
-    sweep_crowd(bodies_, rows_, kImpactSweeps);
+    sweep_pile(bodies_, rows_, kImpactSweeps);
     slow_down(kinetic_energy() - before);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        CrowdPair& pair = pairs_[active_[k]];
+        PilePair& pair = pairs_[active_[k]];
         pair.impact_push = rows_[k].push;
         pair.impact_tangential = rows_[k].tangential.norm();
         if (pair.bounces) pair.separation = normal_speed(rows_[k], bodies_);
@@ -130,13 +130,13 @@ void Crowd::solve_impacts() {
     }
 }
 
-void Crowd::solve_forces() {
+void Pile::solve_forces() {
     const double before = kinetic_energy();
     for (const int ball : awake_)
         of(ball).started = {body(ball).velocity, body(ball).rim / world_.ball(ball).radius};
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const CrowdPair& pair = pairs_[active_[k]];
-        CrowdRow& row = rows_[k];
+        const PilePair& pair = pairs_[active_[k]];
+        PileRow& row = rows_[k];
         // (v + v')_n h / 2 >= -gap; what still closes is stopped, but not thrown back.
         row.target =
             std::min(-normal_speed(row, bodies_) - 2 * std::max(pair.gap, 0.0) / seconds_, 0.0);
@@ -145,11 +145,11 @@ void Crowd::solve_forces() {
     }
     const Vec3 fall = seconds_ * world_.scene.simulation.gravity;
     for (const int ball : awake_) body(ball).velocity += fall;
-    sweep_crowd(bodies_, rows_, kForceSweeps);
+    sweep_pile(bodies_, rows_, kForceSweeps);
     slow_down(kinetic_energy() - before - fall_energy());
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        CrowdPair& pair = pairs_[active_[k]];
-        const CrowdRow& row = rows_[k];
+        PilePair& pair = pairs_[active_[k]];
+        const PileRow& row = rows_[k];
         pair.force = row.push / seconds_;
         pair.friction_force = row.tangential / seconds_;
         const Vec3 relative = relative_velocity(row, bodies_);
@@ -159,12 +159,12 @@ void Crowd::solve_forces() {
 }
 
 /// Moves overlapping balls apart, the lighter ones more, as far as the lost energy lifts them.
-void Crowd::part_overlaps(double budget) {
+void Pile::part_overlaps(double budget) {
     bool any = false;
     for (int sweep = 0; sweep < kOverlapSweeps; ++sweep) {
         bool moved = false;
         for (const std::size_t i : active_) {
-            const CrowdPair& pair = pairs_[i];
+            const PilePair& pair = pairs_[i];
             Vec3 apart = shift_[static_cast<std::size_t>(pair.ball)];
             double masses = body(pair.ball).inverse_mass;
             if (!pair.other.is_surface) {
@@ -197,7 +197,7 @@ void Crowd::part_overlaps(double budget) {
     }
 }
 
-void Crowd::solve() {
+void Pile::solve() {
     build_rows();
     const double before = kinetic_energy();
     solve_impacts();
@@ -205,15 +205,15 @@ void Crowd::solve() {
     const double lost = before + fall_energy() - kinetic_energy();
     part_overlaps(kOverlapBudget * lost);
     for (const int ball : awake_) {
-        CrowdBall& b = of(ball);
+        PileBall& b = of(ball);
         b.after = {body(ball).velocity, body(ball).rim / world_.ball(ball).radius};
         b.near = 0;
         b.pushed = false;
     }
-    for (CrowdPair& pair : pairs_) {
+    for (PilePair& pair : pairs_) {
         if (!(pair.gap < 2 * slack_)) continue;
         const bool pushes = pair.force > 0 || pair.impact_push > 0;
-        pair.touching = pair.gap < parting_gap();
+        pair.touching = pair.gap < separation_gap();
         ++of(pair.ball).near;
         of(pair.ball).pushed |= pushes;
         if (pair.other.is_surface) continue;

@@ -3,11 +3,11 @@
 //
 // A Law says what acts on up to kBalls balls:
 //   kBalls, kStepError, kMostEvaluations, kFitError, kFitSpeedError    constants (see there)
-//   State     an array of CurvedState, Forces     what forces(state) gives
+//   State     an array of ContactState, Forces     what forces(state) gives
 //   ball_count(), size() [m: the smallest radius], speed() [m/s: the size of the speeds at hand]
 //   forces(state), acceleration(forces, ball) [m/s^2], spin_rate(forces, ball) [rad/s^2]
-//   gate_count(), gate(i, state, forces)    what must stay >= 0 for the law to hold
-//   skip_start(i)    whether a gate that is not open at the start ends nothing there
+//   guard_count(), guard(i, state, forces)    what must stay >= 0 for the law to hold
+//   skip_start(i)    whether a guard that is not open at the start ends nothing there
 #pragma once
 
 #include <array>

@@ -8,16 +8,16 @@
 namespace carom {
 
 /// Why a piece ends, always at one contact.
-enum class LinkedEnd {
+enum class CoupledEnd {
     kNone,       ///< it is long enough; the same laws go on
-    kParts,      ///< its normal force has reached 0 (see least_push())
+    kParts,      ///< its normal force has reached 0 (see lift_off_threshold())
     kIdleEnds,   ///< it does not press, and opens or shuts
     kFeature,    ///< another feature of the surface is met
     kSlipGrows,  ///< an incipient slip now has its own direction
     kGripEnds    ///< friction cannot hold the rolling any more
 };
 
-struct LinkedPiece {
+struct CoupledPiece {
     struct OfBall {
         Vec3 acceleration = Vec3::Zero();
         Vec3 spin_rate = Vec3::Zero();
@@ -26,8 +26,8 @@ struct LinkedPiece {
 
     double seconds = 0;  ///< 0 when something ends at once
     bool curved = true;  ///< false: the curves are 0
-    std::array<OfBall, kMostLinkedBalls> balls;
-    LinkedEnd end = LinkedEnd::kNone;
+    std::array<OfBall, kMostCoupledBalls> balls;
+    CoupledEnd end = CoupledEnd::kNone;
     std::size_t contact = 0;  ///< where it ends
     double next_seconds = 0;  ///< a good length for the piece after it
 };
@@ -35,13 +35,13 @@ struct LinkedPiece {
 /// Positions of a piece deviate from the integrated ones by less than this fraction of the
 /// smallest radius, or of the way; turns by less than this [rad], velocities by this fraction of
 /// the speeds.
-inline constexpr double kLinkedError = 1e-12;
+inline constexpr double kCoupledError = 1e-12;
 
 /// The next piece of a motion that is at `state` at `now` [s], where every contact has its mode
 /// (contact_modes.h). `guess` [s] is the next_seconds of the piece before, 0 at the beginning. The
 /// piece ends at a time that is a double; it has no length where something ends at once, or where
 /// the integrator makes no progress.
-LinkedPiece next_piece(const LinkedBalls& system, const LinkedState& state, double now,
-                       double guess);
+CoupledPiece next_piece(const CoupledContacts& system, const CoupledState& state, double now,
+                        double guess);
 
 }  // namespace carom

@@ -30,7 +30,7 @@ struct IntegratedPiece {
     double seconds = 0;                     ///< 0 where something ends at once, or nothing gets on
     std::array<Piece, Law::kBalls> pieces;  ///< they start at time 0, and at the place 0
     typename Law::State end_state;
-    int gate = -1;            ///< which one ends it; -1 where the law goes on
+    int guard = -1;           ///< which one ends it; -1 where the law goes on
     bool given_up = false;    ///< the integrator makes no progress
     double next_seconds = 0;  ///< a good length for the piece after it
 };
@@ -66,8 +66,8 @@ class PieceIntegrator {
                 if (fitted.error <= 1) {
                     result.next_seconds = h * growth_after(fitted.error);
                     double end = h;
-                    result.gate = first_gate(fitted, end);
-                    if (result.gate >= 0) {
+                    result.guard = first_guard(fitted, end);
+                    if (result.guard >= 0) {
                         end = to_a_double(now, end);
                         if (!(end > 0)) return result;
                         fitted = fit(end);
@@ -182,22 +182,22 @@ class PieceIntegrator {
         return state;
     }
 
-    /// The gate that shuts first in (0, seconds], and when; -1 where none does. Looked for on the
-    /// fit, located on the solution itself, to rounding.
-    int first_gate(const Fit& fitted, double& seconds) const {
-        std::array<State, kGateLooks + 1> states;
-        std::array<Forces, kGateLooks + 1> forces;
-        for (std::size_t j = 0; j <= kGateLooks; ++j) {
-            states[j] = on_fit(fitted, gate_place(fitted.seconds, j));
+    /// The guard that turns negative first in (0, seconds], and when; -1 where none does. Looked
+    /// for on the fit, located on the solution itself, to rounding.
+    int first_guard(const Fit& fitted, double& seconds) const {
+        std::array<State, kSamplesPerPiece + 1> states;
+        std::array<Forces, kSamplesPerPiece + 1> forces;
+        for (std::size_t j = 0; j <= kSamplesPerPiece; ++j) {
+            states[j] = on_fit(fitted, sample_time(fitted.seconds, j));
             forces[j] = law_.forces(states[j]);
         }
         int first = -1;
-        for (int i = 0; i < law_.gate_count(); ++i) {
-            const GateLooks looks(
-                fitted.seconds, [&](std::size_t j) { return law_.gate(i, states[j], forces[j]); },
+        for (int i = 0; i < law_.guard_count(); ++i) {
+            const EventLocation location(
+                fitted.seconds, [&](std::size_t j) { return law_.guard(i, states[j], forces[j]); },
                 [&](double s) {
                     const State state = on_fit(fitted, s);
-                    return law_.gate(i, state, law_.forces(state));
+                    return law_.guard(i, state, law_.forces(state));
                 });
             // From the latest known instant before the crossing on, which comes nearer to it.
             double known = 0;
@@ -206,7 +206,7 @@ class PieceIntegrator {
                 Numbers y = s >= known ? there : ode_.first();
                 ode_.advance(y, s >= known ? s - known : s);
                 const State state = ode_.state(y);
-                const double value = law_.gate(i, state, law_.forces(state));
+                const double value = law_.guard(i, state, law_.forces(state));
                 if (value >= 0 && s > known) {
                     known = s;
                     there = y;
@@ -214,7 +214,7 @@ class PieceIntegrator {
                 return value;
             };
             const std::optional<double> s =
-                looks.first_negative(on_solution, seconds, law_.skip_start(i));
+                location.first_negative(on_solution, seconds, law_.skip_start(i));
             if (!s || *s >= seconds) continue;
             seconds = *s;
             first = i;

@@ -28,11 +28,12 @@ class SingleLaw {
     static constexpr int kMostEvaluations = 20'000;
     static constexpr double kFitError = kCurveError;
     static constexpr double kFitSpeedError = kCurveSpeedError;
-    using State = std::array<CurvedState, 1>;
-    using Forces = CurvedForces;
+    using State = std::array<ContactState, 1>;
+    using Forces = SingleContactForces;
 
-    /// `settled`: gates that are shut at the start end nothing there.
-    SingleLaw(const CurvedContact& contact, CurvedMode mode, const CurvedState& start, bool settled)
+    /// `settled`: guards that are negative at the start end nothing there.
+    SingleLaw(const SingleContact& contact, ContactMode mode, const ContactState& start,
+              bool settled)
         : contact_(contact),
           mode_(mode),
           settled_(settled),
@@ -42,69 +43,75 @@ class SingleLaw {
     std::size_t ball_count() const { return 1; }
     double size() const { return contact_.radius; }
     double speed() const { return speed_; }
-    CurvedForces forces(const State& s) const { return curved_forces(contact_, mode_, s[0]); }
-    const Vec3& acceleration(const CurvedForces& f, std::size_t) const { return f.acceleration; }
-    const Vec3& spin_rate(const CurvedForces& f, std::size_t) const { return f.spin_rate; }
+    SingleContactForces forces(const State& s) const {
+        return single_contact_forces(contact_, mode_, s[0]);
+    }
+    const Vec3& acceleration(const SingleContactForces& f, std::size_t) const {
+        return f.acceleration;
+    }
+    const Vec3& spin_rate(const SingleContactForces& f, std::size_t) const { return f.spin_rate; }
 
-    int gate_count() const {
-        const int own = mode_ == CurvedMode::kRolling ? 1 : mode_ == CurvedMode::kIncipient ? 2 : 0;
-        return 1 + contact_.gate_count + own;
+    int guard_count() const {
+        const int own = mode_ == ContactMode::kRolling     ? 1
+                        : mode_ == ContactMode::kIncipient ? 2
+                                                           : 0;
+        return 1 + contact_.border_count + own;
     }
-    CurvedEnd end(int i) const {
-        if (i == 0) return CurvedEnd::kLiftOff;
-        if (i <= contact_.gate_count) return CurvedEnd::kFeature;
-        if (mode_ == CurvedMode::kRolling) return CurvedEnd::kGripEnds;
-        return i == contact_.gate_count + 1 ? CurvedEnd::kSlipGrows : CurvedEnd::kSlipEnds;
+    SingleEnd end(int i) const {
+        if (i == 0) return SingleEnd::kLiftOff;
+        if (i <= contact_.border_count) return SingleEnd::kFeature;
+        if (mode_ == ContactMode::kRolling) return SingleEnd::kGripEnds;
+        return i == contact_.border_count + 1 ? SingleEnd::kSlipGrows : SingleEnd::kSlipEnds;
     }
-    double gate(int i, const State& s, const CurvedForces& f) const {
+    double guard(int i, const State& s, const SingleContactForces& f) const {
         switch (end(i)) {
-            case CurvedEnd::kLiftOff:
-                return f.push - least_push(contact_, s[0].x);
-            case CurvedEnd::kFeature:
-                return contact_.gates[static_cast<std::size_t>(i - 1)].room(s[0].x);
-            case CurvedEnd::kGripEnds:
+            case SingleEnd::kLiftOff:
+                return f.push - lift_off_threshold(contact_, s[0].x);
+            case SingleEnd::kFeature:
+                return contact_.borders[static_cast<std::size_t>(i - 1)].margin(s[0].x);
+            case SingleEnd::kGripEnds:
                 return grip_left(contact_, f);
-            case CurvedEnd::kSlipGrows:
+            case SingleEnd::kSlipGrows:
                 return kSmallSlip * speed_ - f.slip.norm();
             default:
                 return f.slip.dot(f.drive);  // the slip goes back to 0
         }
     }
-    bool skip_start(int i) const { return settled_ || end(i) == CurvedEnd::kSlipEnds; }
+    bool skip_start(int i) const { return settled_ || end(i) == SingleEnd::kSlipEnds; }
 
   private:
-    const CurvedContact& contact_;
-    CurvedMode mode_;
+    const SingleContact& contact_;
+    ContactMode mode_;
     bool settled_;
     double speed_;
 };
 
 /// How fast friction and what drives it change the slip, along it [m/s^2].
-double slowing(const CurvedContact& c, const CurvedForces& f) {
+double slowing(const SingleContact& c, const SingleContactForces& f) {
     return -f.slip.dot(f.drive + (1 + 1 / c.inertia_factor) * f.friction);
 }
 
 /// The longest piece that its laws bear, before its error is known.
-double longest_piece(const CurvedContact& c, CurvedMode mode, const CurvedState& s,
-                     const CurvedForces& f) {
+double longest_piece(const SingleContact& c, ContactMode mode, const ContactState& s,
+                     const SingleContactForces& f) {
     double h = kLongestTurn * std::sqrt(c.distance / c.gravity.norm());
     if (const double turning = f.normal_rate.norm(); turning > 0)
         h = std::min(h, kLongestTurn / turning);
     h = std::min(h, longest_turn(s.w, f.spin_rate));
-    if (mode != CurvedMode::kSliding) return h;
+    if (mode != ContactMode::kSliding) return h;
     const double slip = f.slip.norm(), slows = slowing(c, f) / slip;
     return slows > 0 ? std::min(h, kSlipPart * slip / slows) : h;
 }
 
 /// The state after the impulse of friction that ends the slip: it changes the slip s by 1 + 1/k
 /// times what it gives to the velocity. None where that takes longer.
-std::optional<CurvedState> sudden_grip(const CurvedContact& c, CurvedMode mode,
-                                       const CurvedState& start, const CurvedForces& f) {
+std::optional<ContactState> sudden_grip(const SingleContact& c, ContactMode mode,
+                                        const ContactState& start, const SingleContactForces& f) {
     const double k = c.inertia_factor;
-    if (mode != CurvedMode::kSliding || !(f.push > 0)) return std::nullopt;
+    if (mode != ContactMode::kSliding || !(f.push > 0)) return std::nullopt;
     if (f.slip.norm() > kSudden * c.friction * f.push * (1 + 1 / k)) return std::nullopt;
     const Vec3 change = -f.slip / (1 + 1 / k);
-    CurvedState state = start;
+    ContactState state = start;
     state.v += change;
     state.w -= f.normal.cross(change) / (k * c.radius);
     return state;
@@ -112,8 +119,8 @@ std::optional<CurvedState> sudden_grip(const CurvedContact& c, CurvedMode mode,
 
 }  // namespace
 
-CurvedState integrate(const CurvedContact& contact, CurvedMode mode, const CurvedState& state,
-                      double seconds) {
+ContactState integrate(const SingleContact& contact, ContactMode mode, const ContactState& state,
+                       double seconds) {
     const SingleLaw law(contact, mode, state, false);
     const SingleLaw::State start = {state};
     const ContactOde<SingleLaw> ode(law, start);
@@ -122,15 +129,15 @@ CurvedState integrate(const CurvedContact& contact, CurvedMode mode, const Curve
     return ode.state(y)[0];
 }
 
-CurvedPiece next_piece(const CurvedContact& contact, CurvedMode mode, const CurvedState& state,
+SinglePiece next_piece(const SingleContact& contact, ContactMode mode, const ContactState& state,
                        double now, double guess, bool settled) {
     const SingleLaw law(contact, mode, state, settled);
-    const CurvedForces forces = law.forces({state});
-    CurvedPiece result;
+    const SingleContactForces forces = law.forces({state});
+    SinglePiece result;
     result.end_state = state;
-    if (mode == CurvedMode::kSliding && forces.slip.norm() <= kNoSlip * law.speed() &&
+    if (mode == ContactMode::kSliding && forces.slip.norm() <= kNoSlip * law.speed() &&
         slowing(contact, forces) >= 0) {
-        result.end = CurvedEnd::kSlipEnds;
+        result.end = SingleEnd::kSlipEnds;
         return result;
     }
     const double longest = longest_piece(contact, mode, state, forces);
@@ -140,12 +147,12 @@ CurvedPiece next_piece(const CurvedContact& contact, CurvedMode mode, const Curv
             .next(now, std::min(longest, guess > 0 ? guess : 0.25 * longest));
     if (next.given_up) {
         const auto gripped = sudden_grip(contact, mode, state, forces);
-        result.end = gripped ? CurvedEnd::kSlipEnds : CurvedEnd::kGivenUp;
+        result.end = gripped ? SingleEnd::kSlipEnds : SingleEnd::kGivenUp;
         if (gripped) result.end_state = *gripped;
         return result;
     }
     result.next_seconds = next.next_seconds;
-    if (next.gate >= 0) result.end = law.end(next.gate);
+    if (next.guard >= 0) result.end = law.end(next.guard);
     if (!(next.seconds > 0)) return result;
     const Piece& piece = next.pieces[0];
     result.seconds = next.seconds;

@@ -8,9 +8,9 @@
 namespace carom {
 
 /// Why a piece ends.
-enum class CurvedEnd {
+enum class SingleEnd {
     kNone,       ///< it is long enough; the same laws go on
-    kLiftOff,    ///< the normal force has reached 0 (see least_push())
+    kLiftOff,    ///< the normal force has reached 0 (see lift_off_threshold())
     kFeature,    ///< another feature of the surface is met
     kSlipEnds,   ///< no slip is left
     kSlipGrows,  ///< an incipient slip now has its own direction
@@ -18,13 +18,13 @@ enum class CurvedEnd {
     kGivenUp     ///< the integrator makes no progress from here
 };
 
-struct CurvedPiece {
+struct SinglePiece {
     double seconds = 0;  ///< 0 when something ends at once
     Vec3 acceleration = Vec3::Zero();
     Vec3 spin_rate = Vec3::Zero();
     Curve curve;
-    CurvedState end_state;
-    CurvedEnd end = CurvedEnd::kNone;
+    ContactState end_state;
+    SingleEnd end = SingleEnd::kNone;
     double next_seconds = 0;  ///< a good length for the piece after it
 };
 
@@ -36,8 +36,8 @@ inline constexpr double kCurveError = 2e-14;
 inline constexpr double kCurveSpeedError = 1e-12;
 
 /// The state after `seconds` on the same feature and by the same laws, right to 1e-14 a step.
-CurvedState integrate(const CurvedContact& contact, CurvedMode mode, const CurvedState& state,
-                      double seconds);
+ContactState integrate(const SingleContact& contact, ContactMode mode, const ContactState& state,
+                       double seconds);
 
 /// The next piece of a motion that is at `state` at `now` [s]. `guess` [s] is the next_seconds of
 /// the piece before, 0 at the beginning of a phase. The piece ends at a time that is a double, so
@@ -45,7 +45,7 @@ CurvedState integrate(const CurvedContact& contact, CurvedMode mode, const Curve
 /// until it is past. Where the integrator makes no progress the piece has no length: a slip that
 /// would be over within a nanosecond then ends at once, without a change of the momentum that
 /// friction cannot change; anything else is kGivenUp.
-CurvedPiece next_piece(const CurvedContact& contact, CurvedMode mode, const CurvedState& state,
+SinglePiece next_piece(const SingleContact& contact, ContactMode mode, const ContactState& state,
                        double now, double guess, bool settled);
 
 }  // namespace carom

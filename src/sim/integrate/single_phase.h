@@ -7,16 +7,16 @@
 
 namespace carom {
 
-struct CurvedPhase {
-    CurvedContact contact;
-    CurvedMode mode = CurvedMode::kSmooth;
-    CurvedState state;                 ///< at the end of the piece at hand
-    CurvedEnd end = CurvedEnd::kNone;  ///< of that piece
+struct IntegratedPhase {
+    SingleContact contact;
+    ContactMode mode = ContactMode::kSmooth;
+    ContactState state;                ///< at the end of the piece at hand
+    SingleEnd end = SingleEnd::kNone;  ///< of that piece
     double next_seconds = 0;           ///< a good length for the next one
     // How often something has ended at once at one instant [s].
     double last_begin = -std::numeric_limits<double>::infinity();
     int at_once = 0;
-    /// s: it was given up on (CurvedEnd::kGivenUp), and is stepped until then, ...
+    /// s: it was given up on (SingleEnd::kGivenUp), and is stepped until then, ...
     double stepped_until = -std::numeric_limits<double>::infinity();
     double stepped_seconds = 0;  ///< ... for so long; twice as long each time
 };

@@ -20,22 +20,22 @@ bool is_parallel(const Vec3& a, const Vec3& b) {
 
 /// The rates of a ball's motion; what rounding of gravity left of a 0 is 0, so that it does not add
 /// up.
-Vec3 acceleration(const LinkedBalls& system, const LinkedForces& f, std::size_t ball) {
+Vec3 acceleration(const CoupledContacts& system, const CoupledForces& f, std::size_t ball) {
     const Vec3& a = f.acceleration[ball];
     return a.norm() > kSteady * system.gravity.norm() ? a : Vec3(Vec3::Zero());
 }
-Vec3 spin_rate(const LinkedBalls& system, const LinkedForces& f, std::size_t ball) {
+Vec3 spin_rate(const CoupledContacts& system, const CoupledForces& f, std::size_t ball) {
     const Vec3& b = f.spin_rate[ball];
     const double rim = system.balls[ball].radius * b.norm();
     return rim > kSteady * system.gravity.norm() ? b : Vec3(Vec3::Zero());
 }
 
-bool is_steady(const LinkedBalls& system, const LinkedState& state, const LinkedForces& f) {
+bool is_steady(const CoupledContacts& system, const CoupledState& state, const CoupledForces& f) {
     for (std::size_t b = 0; b < system.ball_count; ++b)
         if (!is_parallel(state[b].w, spin_rate(system, f, b))) return false;
     for (std::size_t i = 0; i < system.contact_count; ++i) {
-        const LinkedContact& c = system.contacts[i];
-        const LinkedContactForces& at = f.contacts[i];
+        const CoupledContact& c = system.contacts[i];
+        const CoupledContactForces& at = f.contacts[i];
         // Two balls that touch turn about one another as soon as they move.
         if (c.other >= 0) return false;
         const auto ball = static_cast<std::size_t>(c.ball);
@@ -44,18 +44,18 @@ bool is_steady(const LinkedBalls& system, const LinkedState& state, const Linked
         if (at.normal_rate.norm() * c.feature.distance > kSteady * state[ball].v.norm() ||
             pull.norm() > kSteady * system.gravity.norm())
             return false;
-        const bool slides = c.mode == CurvedMode::kSliding || c.mode == CurvedMode::kIncipient;
+        const bool slides = c.mode == ContactMode::kSliding || c.mode == ContactMode::kIncipient;
         if (slides && c.presses && !is_parallel(at.slip, at.slip_rate)) return false;
     }
     return true;
 }
 
-double seconds_on(const LinkedContact& c, const CurvedState& s, const Vec3& acceleration,
+double seconds_on(const CoupledContact& c, const ContactState& s, const Vec3& acceleration,
                   double horizon) {
-    for (int k = 0; k < c.feature.gate_count; ++k) {
-        const FeatureGate& gate = c.feature.gates[static_cast<std::size_t>(k)];
-        const Polynomial room{{gate.room(s.x), gate.direction.dot(s.v),
-                               0.5 * gate.direction.dot(acceleration), 0, 0}};
+    for (int k = 0; k < c.feature.border_count; ++k) {
+        const FeatureBorder& edge = c.feature.borders[static_cast<std::size_t>(k)];
+        const Polynomial room{{edge.margin(s.x), edge.direction.dot(s.v),
+                               0.5 * edge.direction.dot(acceleration), 0, 0}};
         const Roots out = downward_crossings(room, horizon);
         if (out.count > 0) horizon = std::min(horizon, out.at[0]);
     }
@@ -64,19 +64,19 @@ double seconds_on(const LinkedContact& c, const CurvedState& s, const Vec3& acce
 
 }  // namespace
 
-std::optional<LinkedPiece> steady_piece(const LinkedBalls& system, const LinkedState& state,
-                                        const LinkedForces& forces, double now, double horizon) {
+std::optional<CoupledPiece> steady_piece(const CoupledContacts& system, const CoupledState& state,
+                                         const CoupledForces& forces, double now, double horizon) {
     if (!is_steady(system, state, forces)) return {};
-    LinkedPiece piece;
+    CoupledPiece piece;
     piece.curved = false;
     double seconds = std::min(horizon, kLongest);
     for (std::size_t i = 0; i < system.contact_count; ++i) {
-        const LinkedContact& c = system.contacts[i];
-        const LinkedContactForces& at = forces.contacts[i];
+        const CoupledContact& c = system.contacts[i];
+        const CoupledContactForces& at = forces.contacts[i];
         const auto ball = static_cast<std::size_t>(c.ball);
         seconds = seconds_on(c, state[ball], acceleration(system, forces, ball), seconds);
         const bool slows = at.slip.dot(at.slip_rate) < 0;
-        if (c.presses && c.mode == CurvedMode::kSliding && slows)
+        if (c.presses && c.mode == ContactMode::kSliding && slows)
             seconds = std::min(seconds, at.slip.norm() / at.slip_rate.norm());
     }
     piece.seconds = (now + seconds) - now;

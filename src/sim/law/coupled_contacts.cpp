@@ -4,13 +4,13 @@
 
 namespace carom {
 
-double LinkedBalls::smallest_radius() const {
+double CoupledContacts::smallest_radius() const {
     double radius = balls[0].radius;
     for (std::size_t i = 1; i < ball_count; ++i) radius = std::min(radius, balls[i].radius);
     return radius;
 }
 
-double LinkedBalls::weight_at(const LinkedContact& c) const {
+double CoupledContacts::weight_at(const CoupledContact& c) const {
     double mass = balls[static_cast<std::size_t>(c.ball)].mass;
     if (c.other >= 0) mass = std::min(mass, balls[static_cast<std::size_t>(c.other)].mass);
     return mass * gravity.norm();

@@ -9,43 +9,43 @@
 
 namespace carom {
 
-inline constexpr std::size_t kMostLinkedBalls = 3;
-inline constexpr std::size_t kMostLinkedContacts = 6;
+inline constexpr std::size_t kMostCoupledBalls = 3;
+inline constexpr std::size_t kMostCoupledContacts = 6;
 
 /// Which of the balls of a system is met; -1 for a surface.
-struct LinkedContact {
+struct CoupledContact {
     int ball = 0;
     int other = -1;
     /// Of a surface, the feature that is met; of two balls only `distance` counts.
-    CurvedContact feature;
+    SingleContact feature;
     double friction = 0;
-    CurvedMode mode = CurvedMode::kSmooth;
+    ContactMode mode = ContactMode::kSmooth;
     bool presses = true;  ///< false: it is left out
 };
 
 /// Of one ball: m, kg, and k of I = k m r^2.
-struct LinkedBall {
+struct CoupledBall {
     double radius = 0.1;
     double mass = 1;
     double inertia_factor = 0.4;
 };
 
-struct LinkedBalls {
-    std::array<LinkedBall, kMostLinkedBalls> balls;
-    std::array<LinkedContact, kMostLinkedContacts> contacts;
+struct CoupledContacts {
+    std::array<CoupledBall, kMostCoupledBalls> balls;
+    std::array<CoupledContact, kMostCoupledContacts> contacts;
     std::size_t ball_count = 0;
     std::size_t contact_count = 0;
     Vec3 gravity = Vec3::Zero();  ///< m/s^2
 
     double smallest_radius() const;
     /// The weight of the lighter ball of a contact [N]: the size of what acts there.
-    double weight_at(const LinkedContact& contact) const;
+    double weight_at(const CoupledContact& contact) const;
 };
 
-using LinkedState = std::array<CurvedState, kMostLinkedBalls>;
+using CoupledState = std::array<ContactState, kMostCoupledBalls>;
 
 /// What acts at one contact, on `ball`; on the other ball the opposite.
-struct LinkedContactForces {
+struct CoupledContactForces {
     Vec3 normal = Vec3::UnitZ();      ///< towards `ball`
     Vec3 normal_rate = Vec3::Zero();  ///< 1/s
     double push = 0;                  ///< along the normal, N
@@ -57,9 +57,9 @@ struct LinkedContactForces {
     double departure = 0;  ///< second rate of the gap, m/s^2: what keeps it shut where it presses
 };
 
-struct LinkedForces {
-    std::array<Vec3, kMostLinkedBalls> acceleration, spin_rate;
-    std::array<LinkedContactForces, kMostLinkedContacts> contacts;
+struct CoupledForces {
+    std::array<Vec3, kMostCoupledBalls> acceleration, spin_rate;
+    std::array<CoupledContactForces, kMostCoupledContacts> contacts;
 };
 
 }  // namespace carom

@@ -21,9 +21,9 @@ constexpr double kPivot = 1e-6;
 /// only where a normal force alone would not do.
 constexpr double kFrictionIsDear = 1e-3;
 
-ContactMotion contact_motion(const LinkedBalls& system, const LinkedContact& c,
-                             const LinkedState& state) {
-    const CurvedState& a = state[static_cast<std::size_t>(c.ball)];
+ContactMotion contact_motion(const CoupledContacts& system, const CoupledContact& c,
+                             const CoupledState& state) {
+    const ContactState& a = state[static_cast<std::size_t>(c.ball)];
     ContactMotion m;
     Vec3 q, v = a.v;
     m.turn_speed = system.balls[static_cast<std::size_t>(c.ball)].radius * a.w;
@@ -31,7 +31,7 @@ ContactMotion contact_motion(const LinkedBalls& system, const LinkedContact& c,
         q = c.feature.across * (a.x - c.feature.origin);
         m.across_speed = c.feature.across * a.v;
     } else {
-        const CurvedState& b = state[static_cast<std::size_t>(c.other)];
+        const ContactState& b = state[static_cast<std::size_t>(c.other)];
         q = a.x - b.x;
         v -= b.v;
         m.across_speed = v;
@@ -47,25 +47,25 @@ ContactMotion contact_motion(const LinkedBalls& system, const LinkedContact& c,
 
 }  // namespace
 
-ContactMotions contact_motions(const LinkedBalls& system, const LinkedState& state) {
+ContactMotions contact_motions(const CoupledContacts& system, const CoupledState& state) {
     ContactMotions at;
     for (std::size_t i = 0; i < system.contact_count; ++i)
         at[i] = contact_motion(system, system.contacts[i], state);
     return at;
 }
 
-ForceEquations::ForceEquations(const LinkedBalls& system, const ContactMotions& at, Rows rows,
+ForceEquations::ForceEquations(const CoupledContacts& system, const ContactMotions& at, Rows rows,
                                Sliding sliding)
     : system_(system) {
     for (std::size_t i = 0; i < system.contact_count; ++i) {
-        const LinkedContact& c = system.contacts[i];
+        const CoupledContact& c = system.contacts[i];
         if (!c.presses) continue;
         const Vec3& n = at[i].n;
         Vec3 force = n;
-        if (sliding == Sliding::kHeldBack && c.mode == CurvedMode::kSliding)
+        if (sliding == Sliding::kHeldBack && c.mode == ContactMode::kSliding)
             force -= c.friction * at[i].slip.stableNormalized();
         rows_[count_++] = {i, n, n, force, true};
-        if (rows == Rows::kNormals || c.mode != CurvedMode::kRolling) continue;
+        if (rows == Rows::kNormals || c.mode != ContactMode::kRolling) continue;
         const Vec3 t = n.unitOrthogonal(), u = n.cross(t);
         rows_[count_++] = {i, n, t, t, false};
         rows_[count_++] = {i, n, u, u, false};
@@ -110,8 +110,8 @@ ForceSizes ForceEquations::solve(const ForceSizes& wanted) const {
 
 double ForceEquations::effect(std::size_t i, const ForceRow& acts, const Vec3& force) const {
     const ForceRow& seen = rows_[i];
-    const LinkedContact& a = system_.contacts[seen.contact];
-    const LinkedContact& b = system_.contacts[acts.contact];
+    const CoupledContact& a = system_.contacts[seen.contact];
+    const CoupledContact& b = system_.contacts[acts.contact];
     double sum = 0, straight = 0, turned = 0;
     bool known = false;
     for (const int ball : {a.ball, a.other}) {
@@ -121,26 +121,26 @@ double ForceEquations::effect(std::size_t i, const ForceRow& acts, const Vec3& f
             // e . ((n x f) x n'), multiplied out.
             turned = acts.n.dot(seen.n) * straight - acts.n.dot(seen.along) * force.dot(seen.n);
         }
-        const LinkedBall& body = system_.balls[static_cast<std::size_t>(ball)];
+        const CoupledBall& body = system_.balls[static_cast<std::size_t>(ball)];
         const double sign = (ball == a.ball) == (ball == b.ball) ? 1 : -1;
         sum += (sign * straight + turned / body.inertia_factor) / body.mass;
     }
     return sum;
 }
 
-void ForceEquations::apply(const ForceRow& acts, const Vec3& force, LinkedChange& change) const {
-    const LinkedContact& c = system_.contacts[acts.contact];
+void ForceEquations::apply(const ForceRow& acts, const Vec3& force, CoupledChange& change) const {
+    const CoupledContact& c = system_.contacts[acts.contact];
     const Vec3 torque = acts.n.cross(force);
     for (const int ball : {c.ball, c.other}) {
         if (ball < 0) continue;
         const auto b = static_cast<std::size_t>(ball);
-        const LinkedBall& body = system_.balls[b];
+        const CoupledBall& body = system_.balls[b];
         change.linear[b] += (ball == c.ball ? 1 : -1) / body.mass * force;
         change.spin[b] -= torque / (body.inertia_factor * body.mass * body.radius);
     }
 }
 
-void ForceEquations::apply(const ForceSizes& sizes, LinkedChange& change) const {
+void ForceEquations::apply(const ForceSizes& sizes, CoupledChange& change) const {
     for (std::size_t i = 0; i < count_; ++i)
         apply(rows_[i], sizes[static_cast<Eigen::Index>(i)] * rows_[i].force, change);
 }

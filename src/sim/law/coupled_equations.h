@@ -9,7 +9,7 @@
 
 namespace carom {
 
-inline constexpr int kMostForces = 3 * static_cast<int>(kMostLinkedContacts);
+inline constexpr int kMostForces = 3 * static_cast<int>(kMostCoupledContacts);
 using ForceSizes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostForces, 1>;
 
 /// Geometry and relative motion at a contact, seen from its `ball`.
@@ -17,9 +17,9 @@ struct ContactMotion {
     Vec3 n, n_rate, across_speed, turn_speed, slip;
     double distance = 0, speed = 0;
 };
-using ContactMotions = std::array<ContactMotion, kMostLinkedContacts>;
+using ContactMotions = std::array<ContactMotion, kMostCoupledContacts>;
 
-ContactMotions contact_motions(const LinkedBalls& system, const LinkedState& state);
+ContactMotions contact_motions(const CoupledContacts& system, const CoupledState& state);
 
 /// A force, and the one direction in which it is to set the relative motion at its contact right.
 struct ForceRow {
@@ -29,10 +29,10 @@ struct ForceRow {
 };
 
 /// Linear and angular changes of all balls.
-struct LinkedChange {
-    std::array<Vec3, kMostLinkedBalls> linear, spin;
+struct CoupledChange {
+    std::array<Vec3, kMostCoupledBalls> linear, spin;
 
-    LinkedChange() {
+    CoupledChange() {
         linear.fill(Vec3::Zero());
         spin.fill(Vec3::Zero());
     }
@@ -44,7 +44,8 @@ class ForceEquations {
     enum class Rows { kNormals, kNormalsAndSlips };
     enum class Sliding { kSmooth, kHeldBack };  ///< by mu N against the slip
 
-    ForceEquations(const LinkedBalls& system, const ContactMotions& at, Rows rows, Sliding sliding);
+    ForceEquations(const CoupledContacts& system, const ContactMotions& at, Rows rows,
+                   Sliding sliding);
 
     std::size_t count() const { return count_; }
     const ForceRow& row(std::size_t i) const { return rows_[i]; }
@@ -57,11 +58,11 @@ class ForceEquations {
     double effect(std::size_t i, const ForceRow& acts, const Vec3& force) const;
 
     /// Adds what it does to the balls.
-    void apply(const ForceRow& acts, const Vec3& force, LinkedChange& change) const;
-    void apply(const ForceSizes& sizes, LinkedChange& change) const;
+    void apply(const ForceRow& acts, const Vec3& force, CoupledChange& change) const;
+    void apply(const ForceSizes& sizes, CoupledChange& change) const;
 
   private:
-    const LinkedBalls& system_;
+    const CoupledContacts& system_;
     std::array<ForceRow, kMostForces> rows_;
     std::size_t count_ = 0;
 };

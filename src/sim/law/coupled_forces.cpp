@@ -15,7 +15,7 @@ namespace {
 using Rows = ForceEquations::Rows;
 using Sliding = ForceEquations::Sliding;
 
-/// As least_push() of one ball; a system of equations leaves more rounding.
+/// As lift_off_threshold() of one ball; a system of equations leaves more rounding.
 constexpr double kLeastPush = 1e-13;
 
 /// Over so much of the time that gravity takes over a radius, both ways, the turning of a direction
@@ -30,18 +30,18 @@ constexpr double kSmoothTurn = 0.01;
 constexpr int kPlaceRounds = 3;
 
 /// What the equations have to bring about: gaps that stay shut, slips that stay 0.
-double wanted_by(const LinkedBalls& system, const ForceRow& row, const ContactMotion& m) {
-    const LinkedContact& c = system.contacts[row.contact];
+double wanted_by(const CoupledContacts& system, const ForceRow& row, const ContactMotion& m) {
+    const CoupledContact& c = system.contacts[row.contact];
     const double pull = c.other < 0 ? row.along.dot(system.gravity) : 0;
     return row.normal ? -m.across_speed.dot(m.n_rate) - pull
                       : row.along.dot(m.turn_speed.cross(m.n_rate)) - pull;
 }
 
 /// The rates of gap and slip at each contact, from what happens to the balls.
-void fill_rates(const LinkedBalls& system, const ContactMotions& at, LinkedForces& r) {
+void fill_rates(const CoupledContacts& system, const ContactMotions& at, CoupledForces& r) {
     for (std::size_t i = 0; i < system.contact_count; ++i) {
-        const LinkedContact& contact = system.contacts[i];
-        LinkedContactForces& c = r.contacts[i];
+        const CoupledContact& contact = system.contacts[i];
+        CoupledContactForces& c = r.contacts[i];
         c.normal = at[i].n;
         c.normal_rate = at[i].n_rate;
         c.slip = at[i].slip;
@@ -59,8 +59,8 @@ void fill_rates(const LinkedBalls& system, const ContactMotions& at, LinkedForce
 }
 
 /// All forces, where those of friction at incipient slips are given: `held` [N].
-LinkedForces forces_with(const LinkedBalls& system, const ContactMotions& at,
-                         std::span<const ForceRow> held) {
+CoupledForces forces_with(const CoupledContacts& system, const ContactMotions& at,
+                          std::span<const ForceRow> held) {
     const ForceEquations equations(system, at, Rows::kNormalsAndSlips, Sliding::kHeldBack);
     ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));
     for (std::size_t i = 0; i < equations.count(); ++i) {
@@ -71,10 +71,10 @@ LinkedForces forces_with(const LinkedBalls& system, const ContactMotions& at,
     }
     const ForceSizes sizes = equations.solve(wanted);
 
-    LinkedChange change;
+    CoupledChange change;
     change.linear.fill(system.gravity);
     equations.apply(sizes, change);
-    LinkedForces r;
+    CoupledForces r;
     for (const ForceRow& h : held) {
         equations.apply(h, h.force, change);
         r.contacts[h.contact].friction = h.force;
@@ -83,7 +83,7 @@ LinkedForces forces_with(const LinkedBalls& system, const ContactMotions& at,
     r.spin_rate = change.spin;
     for (std::size_t i = 0; i < equations.count(); ++i) {
         const ForceRow& row = equations.row(i);
-        LinkedContactForces& c = r.contacts[row.contact];
+        CoupledContactForces& c = r.contacts[row.contact];
         const Vec3 force = sizes[static_cast<Eigen::Index>(i)] * row.force;
         c.push += force.dot(row.n);
         c.friction += force - force.dot(row.n) * row.n;
@@ -92,24 +92,24 @@ LinkedForces forces_with(const LinkedBalls& system, const ContactMotions& at,
     return r;
 }
 
-using Turning = std::array<Vec3, kMostLinkedContacts>;
+using Turning = std::array<Vec3, kMostCoupledContacts>;
 
 /// The forces where slips begin, whose directions turn as `turning` says [1/s].
-LinkedForces forces_of_starts(const LinkedBalls& system, const ContactMotions& at,
-                              SlipStarts starts, const Turning& turning) {
+CoupledForces forces_of_starts(const CoupledContacts& system, const ContactMotions& at,
+                               SlipOnset starts, const Turning& turning) {
     // What happens at the slips that begin is linear in the forces that hold them back.
     for (std::size_t i = 0; i <= 2 * starts.count(); ++i)
         starts.take(i, forces_with(system, at, starts.probe(i)));
     starts.set_turning(at, turning);
-    LinkedForces r = forces_with(system, at, starts.friction());
+    CoupledForces r = forces_with(system, at, starts.friction());
     starts.fill_directions(r);
     return r;
 }
 
 /// The directions of slips that begin, `seconds` away, if these do not turn.
-Turning directions_at(const LinkedBalls& system, const LinkedState& state, const LinkedForces& f,
-                      double seconds) {
-    LinkedState there = state;
+Turning directions_at(const CoupledContacts& system, const CoupledState& state,
+                      const CoupledForces& f, double seconds) {
+    CoupledState there = state;
     for (std::size_t b = 0; b < system.ball_count; ++b) {
         there[b].x += seconds * (state[b].v + 0.5 * seconds * f.acceleration[b]);
         there[b].v += seconds * f.acceleration[b];
@@ -118,7 +118,7 @@ Turning directions_at(const LinkedBalls& system, const LinkedState& state, const
     const ContactMotions at = contact_motions(system, there);
     Turning still;
     still.fill(Vec3::Zero());
-    const LinkedForces forces = forces_of_starts(system, at, SlipStarts(system, at), still);
+    const CoupledForces forces = forces_of_starts(system, at, SlipOnset(system, at), still);
     Turning directions;
     for (std::size_t i = 0; i < system.contact_count; ++i)
         directions[i] = forces.contacts[i].direction;
@@ -127,13 +127,13 @@ Turning directions_at(const LinkedBalls& system, const LinkedState& state, const
 
 }  // namespace
 
-LinkedForces linked_forces(const LinkedBalls& system, const LinkedState& state) {
+CoupledForces coupled_forces(const CoupledContacts& system, const CoupledState& state) {
     const ContactMotions at = contact_motions(system, state);
-    const SlipStarts starts(system, at);
+    const SlipOnset starts(system, at);
     if (starts.count() == 0) return forces_with(system, at, {});
     Turning turning;
     turning.fill(Vec3::Zero());
-    const LinkedForces still = forces_of_starts(system, at, starts, turning);
+    const CoupledForces still = forces_of_starts(system, at, starts, turning);
     // To first order a direction turns as it would if it did not lag.
     const double seconds =
         kTurningTime * std::sqrt(system.smallest_radius() / system.gravity.norm());
@@ -147,7 +147,7 @@ LinkedForces linked_forces(const LinkedBalls& system, const LinkedState& state) 
     return forces_of_starts(system, at, starts, turning);
 }
 
-void project(const LinkedBalls& system, LinkedState& state) {
+void project(const CoupledContacts& system, CoupledState& state) {
     for (int round = 0; round < kPlaceRounds; ++round) {
         const ContactMotions at = contact_motions(system, state);
         const ForceEquations equations(system, at, Rows::kNormals, Sliding::kSmooth);
@@ -157,7 +157,7 @@ void project(const LinkedBalls& system, LinkedState& state) {
             wanted[static_cast<Eigen::Index>(i)] =
                 system.contacts[contact].feature.distance - at[contact].distance;
         }
-        LinkedChange change;
+        CoupledChange change;
         equations.apply(equations.solve(wanted), change);
         for (std::size_t i = 0; i < system.ball_count; ++i) state[i].x += change.linear[i];
     }
@@ -169,7 +169,7 @@ void project(const LinkedBalls& system, LinkedState& state) {
         const ContactMotion& m = at[row.contact];
         wanted[static_cast<Eigen::Index>(i)] = -row.along.dot(m.slip + m.speed * m.n);
     }
-    LinkedChange change;
+    CoupledChange change;
     equations.apply(equations.solve(wanted), change);
     for (std::size_t i = 0; i < system.ball_count; ++i) {
         state[i].v += change.linear[i];
@@ -177,22 +177,22 @@ void project(const LinkedBalls& system, LinkedState& state) {
     }
 }
 
-void land(const LinkedBalls& system, const std::array<bool, kMostLinkedContacts>& gives_back,
-          LinkedState& state) {
+void land(const CoupledContacts& system, const std::array<bool, kMostCoupledContacts>& gives_back,
+          CoupledState& state) {
     const ContactMotions at = contact_motions(system, state);
-    LinkedBalls sliding = system;
-    const double no_slip = kNoLinkedSlip * speed_of(system, state);
+    CoupledContacts sliding = system;
+    const double no_slip = kNoCoupledSlip * speed_of(system, state);
     for (std::size_t i = 0; i < sliding.contact_count; ++i) {
-        LinkedContact& c = sliding.contacts[i];
+        CoupledContact& c = sliding.contacts[i];
         c.mode = gives_back[i] && c.friction > 0 && at[i].slip.norm() > no_slip
-                     ? CurvedMode::kSliding
-                     : CurvedMode::kSmooth;
+                     ? ContactMode::kSliding
+                     : ContactMode::kSmooth;
     }
     const ForceEquations equations(sliding, at, Rows::kNormals, Sliding::kHeldBack);
     ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));
     for (std::size_t i = 0; i < equations.count(); ++i)
         wanted[static_cast<Eigen::Index>(i)] = -at[equations.row(i).contact].speed;
-    LinkedChange change;
+    CoupledChange change;
     equations.apply(equations.solve(wanted), change);
     for (std::size_t i = 0; i < system.ball_count; ++i) {
         state[i].v += change.linear[i];
@@ -200,12 +200,13 @@ void land(const LinkedBalls& system, const std::array<bool, kMostLinkedContacts>
     }
 }
 
-double grip_left(const LinkedContact& contact, const LinkedContactForces& forces) {
+double grip_left(const CoupledContact& contact, const CoupledContactForces& forces) {
     return contact.friction * forces.push - forces.friction.norm();
 }
 
-double least_push(const LinkedBalls& system, const LinkedContact& c, const LinkedState& state) {
-    const CurvedState& a = state[static_cast<std::size_t>(c.ball)];
+double lift_off_threshold(const CoupledContacts& system, const CoupledContact& c,
+                          const CoupledState& state) {
+    const ContactState& a = state[static_cast<std::size_t>(c.ball)];
     const double size = 1 + a.x.cwiseAbs().maxCoeff() / c.feature.distance;
     return -kLeastPush * size * system.weight_at(c);
 }

@@ -11,17 +11,18 @@ constexpr double kLeastPush = 4e-15;
 
 }  // namespace
 
-CurvedContact curved_contact(const SurfaceShape& shape, const Vec3& x, const Vec3& v, double radius,
+SingleContact single_contact(const SurfaceShape& shape, const Vec3& x, const Vec3& v, double radius,
                              const Vec3& gravity) {
-    CurvedContact c;
+    SingleContact c;
     static_cast<Feature&>(c) = feature_at(shape, {x, v, gravity}, radius);
     c.radius = radius;
     c.gravity = gravity;
     return c;
 }
 
-CurvedForces curved_forces(const CurvedContact& c, CurvedMode mode, const CurvedState& state) {
-    CurvedForces r;
+SingleContactForces single_contact_forces(const SingleContact& c, ContactMode mode,
+                                          const ContactState& state) {
+    SingleContactForces r;
     const Vec3 q = c.across * (state.x - c.origin);
     const double distance = q.norm();
     r.normal = q / distance;
@@ -31,16 +32,16 @@ CurvedForces curved_forces(const CurvedContact& c, CurvedMode mode, const Curved
     const double g_n = -c.gravity.dot(n);
     r.push = g_n - state.v.dot(r.normal_rate);
     r.acceleration = c.gravity + r.push * n;
-    if (mode == CurvedMode::kSmooth) return r;
+    if (mode == ContactMode::kSmooth) return r;
 
     const double R = c.radius, k = c.inertia_factor;
     const double spin_n = state.w.dot(n);
     r.slip = state.v - n.dot(state.v) * n - R * state.w.cross(n);
     r.drive = c.gravity + g_n * n - (R * spin_n) * n.cross(r.normal_rate);
-    if (mode == CurvedMode::kRolling) {
+    if (mode == ContactMode::kRolling) {
         r.friction = -(k / (1 + k)) * r.drive;
     } else {
-        const Vec3& against = mode == CurvedMode::kSliding ? r.slip : r.drive;
+        const Vec3& against = mode == ContactMode::kSliding ? r.slip : r.drive;
         const double size = against.norm();
         if (size > 0) r.friction = (-c.friction * r.push / size) * against;
     }
@@ -49,23 +50,23 @@ CurvedForces curved_forces(const CurvedContact& c, CurvedMode mode, const Curved
     return r;
 }
 
-double least_push(const CurvedContact& c, const Vec3& x) {
+double lift_off_threshold(const SingleContact& c, const Vec3& x) {
     const double size = 1 + (x.cwiseAbs().maxCoeff() + c.origin.cwiseAbs().maxCoeff()) / c.distance;
     return -kLeastPush * size * c.gravity.norm();
 }
 
-double grip_left(const CurvedContact& c, const CurvedForces& forces) {
+double grip_left(const SingleContact& c, const SingleContactForces& forces) {
     const double k = c.inertia_factor;
     return c.friction * forces.push - k / (1 + k) * forces.drive.norm();
 }
 
-void project(const CurvedContact& c, CurvedMode mode, CurvedState& state) {
+void project(const SingleContact& c, ContactMode mode, ContactState& state) {
     const Vec3 q = c.across * (state.x - c.origin);
     const double distance = q.norm();
     const Vec3 n = q / distance;
     state.x += (c.distance - distance) * n;
     state.v -= n.dot(state.v) * n;
-    if (mode == CurvedMode::kRolling) state.w = state.w.dot(n) * n + n.cross(state.v) / c.radius;
+    if (mode == ContactMode::kRolling) state.w = state.w.dot(n) * n + n.cross(state.v) / c.radius;
 }
 
 }  // namespace carom

@@ -8,7 +8,7 @@
 namespace carom {
 
 /// The ball's centre keeps its distance from the core of one feature of the surface.
-struct CurvedContact : Feature {
+struct SingleContact : Feature {
     double radius = 0.1;          ///< of the ball, m
     double inertia_factor = 0.4;  ///< k of I = k m r^2
     double friction = 0;          ///< Coulomb's mu
@@ -17,11 +17,11 @@ struct CurvedContact : Feature {
 
 /// The contact of a ball at `x` [m] that touches `shape`. On the border of two features the motion
 /// `v` [m/s] decides, and gravity where that has no part across the border.
-CurvedContact curved_contact(const SurfaceShape& shape, const Vec3& x, const Vec3& v, double radius,
+SingleContact single_contact(const SurfaceShape& shape, const Vec3& x, const Vec3& v, double radius,
                              const Vec3& gravity);
 
 /// What acts at the contact.
-enum class CurvedMode {
+enum class ContactMode {
     kSmooth,     ///< no friction
     kSliding,    ///< friction mu N against the slip
     kIncipient,  ///< the same while the slip is still so small that it follows what drives it
@@ -29,14 +29,14 @@ enum class CurvedMode {
 };
 
 /// Centre, velocity and spin.
-struct CurvedState {
+struct ContactState {
     Vec3 x = Vec3::Zero();
     Vec3 v = Vec3::Zero();
     Vec3 w = Vec3::Zero();
 };
 
 /// Accelerations and forces [m/s^2: per mass of the ball].
-struct CurvedForces {
+struct SingleContactForces {
     Vec3 normal = Vec3::UnitZ();
     Vec3 normal_rate = Vec3::Zero();  ///< 1/s
     double push = 0;                  ///< along the normal; the contact holds while it is > 0
@@ -54,17 +54,18 @@ struct CurvedForces {
 /// Sliding: f = -mu N s/|s|. Rolling keeps s = 0: f = -k/(1+k) b, which Coulomb allows up to mu N.
 /// (E. J. Routh, Dynamics of a System of Rigid Bodies, Advanced Part, 1905, ch. V; the term with
 /// w.n turns a ball that rolls obliquely on a cylinder.)
-CurvedForces curved_forces(const CurvedContact& contact, CurvedMode mode, const CurvedState& state);
+SingleContactForces single_contact_forces(const SingleContact& contact, ContactMode mode,
+                                          const ContactState& state);
 
 /// Below this push [m/s^2] the ball has left, a negative trifle: its path must part from the
 /// surface by more than the rounding of its place, which is what the next time of impact sees.
-double least_push(const CurvedContact& contact, const Vec3& x);
+double lift_off_threshold(const SingleContact& contact, const Vec3& x);
 
 /// mu N - |f| of rolling: it rolls while this is >= 0.
-double grip_left(const CurvedContact& contact, const CurvedForces& forces);
+double grip_left(const SingleContact& contact, const SingleContactForces& forces);
 
 /// Puts rounding right: the centre on its distance, the velocity along the surface and, when it
 /// rolls, no slip.
-void project(const CurvedContact& contact, CurvedMode mode, CurvedState& state);
+void project(const SingleContact& contact, ContactMode mode, ContactState& state);
 
 }  // namespace carom

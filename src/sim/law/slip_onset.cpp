@@ -15,10 +15,10 @@ constexpr double kSameDirection = 1e-14;
 
 }  // namespace
 
-SlipStarts::SlipStarts(const LinkedBalls& system, const ContactMotions& at) {
+SlipOnset::SlipOnset(const CoupledContacts& system, const ContactMotions& at) {
     for (std::size_t i = 0; i < system.contact_count; ++i) {
-        const LinkedContact& c = system.contacts[i];
-        if (!c.presses || c.mode != CurvedMode::kIncipient) continue;
+        const CoupledContact& c = system.contacts[i];
+        if (!c.presses || c.mode != ContactMode::kIncipient) continue;
         Start& s = starts_[count_++];
         s.contact = i;
         s.mu = c.friction;
@@ -29,7 +29,7 @@ SlipStarts::SlipStarts(const LinkedBalls& system, const ContactMotions& at) {
     }
 }
 
-void SlipStarts::set_turning(const ContactMotions& at, std::span<const Vec3> turning) {
+void SlipOnset::set_turning(const ContactMotions& at, std::span<const Vec3> turning) {
     for (std::size_t k = 0; k < count_; ++k) {
         Start& s = starts_[k];
         const Vec3 lag = at[s.contact].slip.norm() * turning[s.contact];
@@ -37,7 +37,7 @@ void SlipStarts::set_turning(const ContactMotions& at, std::span<const Vec3> tur
     }
 }
 
-std::span<const ForceRow> SlipStarts::probe(std::size_t i) {
+std::span<const ForceRow> SlipOnset::probe(std::size_t i) {
     if (i == 0) return {};
     const Start& s = starts_[(i - 1) / 2];
     const Vec3& along = i % 2 == 1 ? s.t : s.u;
@@ -45,12 +45,12 @@ std::span<const ForceRow> SlipStarts::probe(std::size_t i) {
     return {rows_.data(), 1};
 }
 
-SlipStarts::Vec2 SlipStarts::seen(const Start& start, const LinkedForces& forces) const {
+SlipOnset::Vec2 SlipOnset::seen(const Start& start, const CoupledForces& forces) const {
     const Vec3& rate = forces.contacts[start.contact].slip_rate;
     return {start.t.dot(rate), start.u.dot(rate)};
 }
 
-void SlipStarts::take(std::size_t i, const LinkedForces& forces) {
+void SlipOnset::take(std::size_t i, const CoupledForces& forces) {
     for (std::size_t k = 0; k < count_; ++k) {
         Start& s = starts_[k];
         const double push = forces.contacts[s.contact].push;
@@ -67,7 +67,7 @@ void SlipStarts::take(std::size_t i, const LinkedForces& forces) {
 }
 
 /// One direction, with the friction at the others as it is; returns how far it has turned.
-double SlipStarts::settle(Start& start) const {
+double SlipOnset::settle(Start& start) const {
     const auto own = static_cast<std::size_t>(&start - starts_.data());
     Vec2 s0 = start.s0 - start.lag;
     double n0 = start.n0;
@@ -95,7 +95,7 @@ double SlipStarts::settle(Start& start) const {
     return (start.d - before).norm();
 }
 
-std::span<const ForceRow> SlipStarts::friction() {
+std::span<const ForceRow> SlipOnset::friction() {
     for (std::size_t k = 0; k < count_; ++k) {
         Start& s = starts_[k];
         s.d = (s.s0 - s.lag).stableNormalized();
@@ -113,7 +113,7 @@ std::span<const ForceRow> SlipStarts::friction() {
     return {rows_.data(), count_};
 }
 
-void SlipStarts::fill_directions(LinkedForces& forces) const {
+void SlipOnset::fill_directions(CoupledForces& forces) const {
     for (std::size_t k = 0; k < count_; ++k) {
         const Start& s = starts_[k];
         forces.contacts[s.contact].direction = s.d.x() * s.t + s.d.y() * s.u;

@@ -11,20 +11,20 @@ namespace carom {
 ///   s' - |s| d' = s0 - |s| d' + sum of A f is along d, with f = -mu N d and N = N0 + sum of b . f,
 /// the sums over all slips that begin at the same time. s0, A, N0 and b are found by probing: the
 /// forces of the whole system without this friction, and with a unit of it at each.
-class SlipStarts {
+class SlipOnset {
   public:
-    SlipStarts(const LinkedBalls& system, const ContactMotions& at);
+    SlipOnset(const CoupledContacts& system, const ContactMotions& at);
 
     std::size_t count() const { return count_; }
     /// How fast the slips' directions turn (d', 1/s) and how large they are; without it they are 0.
     void set_turning(const ContactMotions& at, std::span<const Vec3> turning);
     /// The friction of probe i, 0 ... 2 count().
     std::span<const ForceRow> probe(std::size_t i);
-    void take(std::size_t i, const LinkedForces& forces);
+    void take(std::size_t i, const CoupledForces& forces);
 
     /// Once all probes are taken.
     std::span<const ForceRow> friction();
-    void fill_directions(LinkedForces& forces) const;
+    void fill_directions(CoupledForces& forces) const;
 
   private:
     using Vec2 = Eigen::Vector2d;
@@ -34,14 +34,14 @@ class SlipStarts {
         Vec3 n, t, u;
         Vec2 s0, d, f, lag = Vec2::Zero();
         double n0 = 0;
-        std::array<Eigen::Matrix2d, kMostLinkedContacts> a;
-        std::array<Vec2, kMostLinkedContacts> b;
+        std::array<Eigen::Matrix2d, kMostCoupledContacts> a;
+        std::array<Vec2, kMostCoupledContacts> b;
     };
-    Vec2 seen(const Start& start, const LinkedForces& forces) const;
+    Vec2 seen(const Start& start, const CoupledForces& forces) const;
     double settle(Start& start) const;
 
-    std::array<Start, kMostLinkedContacts> starts_;
-    std::array<ForceRow, kMostLinkedContacts> rows_;
+    std::array<Start, kMostCoupledContacts> starts_;
+    std::array<ForceRow, kMostCoupledContacts> rows_;
     std::size_t count_ = 0;
 };
 

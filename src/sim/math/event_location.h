@@ -10,12 +10,13 @@
 
 namespace carom {
 
-/// Looked at in so many places of a piece, which is short against its motion.
-inline constexpr std::size_t kGateLooks = 8;
+/// Samples per piece. Pieces are short compared with the motion's time scale, so that a change of
+/// sign hides between two of them only where the quantity dips: see dip_at().
+inline constexpr std::size_t kSamplesPerPiece = 8;
 
-/// Look j of a piece of h seconds.
-inline double gate_place(double h, std::size_t j) {
-    return h * static_cast<double>(j) / static_cast<double>(kGateLooks);
+/// Of sample j of a piece of h seconds, s.
+inline double sample_time(double h, std::size_t j) {
+    return h * static_cast<double>(j) / static_cast<double>(kSamplesPerPiece);
 }
 
 /// The lowest place of a function between two others that are higher, by thirds.
@@ -29,13 +30,14 @@ double lowest_between(const F& f, double lo, double hi) {
     return 0.5 * (lo + hi);
 }
 
-/// A quantity along the fit of a piece: its values at the looks, and anywhere.
+/// A quantity along the polynomial of a piece: its values at the samples, and anywhere.
 template <class OnFit>
-class GateLooks {
+class EventLocation {
   public:
-    template <class AtLook>
-    GateLooks(double h, const AtLook& at_look, OnFit on_fit) : h_(h), on_fit_(std::move(on_fit)) {
-        for (std::size_t j = 0; j <= kGateLooks; ++j) looks_[j] = at_look(j);
+    template <class AtSample>
+    EventLocation(double h, const AtSample& at_sample, OnFit on_fit)
+        : h_(h), on_fit_(std::move(on_fit)) {
+        for (std::size_t j = 0; j <= kSamplesPerPiece; ++j) samples_[j] = at_sample(j);
     }
 
     /// The first place before `limit`, to rounding: found on the fit, located on `on_course`. 0
@@ -44,14 +46,14 @@ class GateLooks {
     std::optional<double> first_negative(const OnCourse& on_course, double limit,
                                          bool skip_start) const {
         double above = -1;  // the last place where it was above 0
-        for (std::size_t j = 0; j <= kGateLooks; ++j) {
-            if (j > 0 && gate_place(h_, j - 1) > limit) break;
-            const double place = gate_place(h_, j);
-            if (looks_[j] > 0) above = place;
-            double below = looks_[j] < 0 && j > 0 ? place : -1;
+        for (std::size_t j = 0; j <= kSamplesPerPiece; ++j) {
+            if (j > 0 && sample_time(h_, j - 1) > limit) break;
+            const double place = sample_time(h_, j);
+            if (samples_[j] > 0) above = place;
+            double below = samples_[j] < 0 && j > 0 ? place : -1;
             if (const double dip = dip_at(j); dip >= 0) {
                 below = dip;
-                if (dip < above) above = gate_place(h_, j - 1);
+                if (dip < above) above = sample_time(h_, j - 1);
             }
             if (below < 0) continue;
             if (above >= 0) return bracketed_root(on_course, above, below);
@@ -61,20 +63,21 @@ class GateLooks {
     }
 
   private:
-    /// Where a gate that is open at look j and around it dips below 0 in between; -1 for nowhere.
+    /// Where a quantity that is positive at sample j and around it dips below 0; -1 for nowhere.
     double dip_at(std::size_t j) const {
-        if (j == 0 || j == kGateLooks) return -1;
-        if (!(looks_[j] > 0 && looks_[j] <= looks_[j - 1] && looks_[j] < looks_[j + 1])) return -1;
-        const double s = lowest_between(on_fit_, gate_place(h_, j - 1), gate_place(h_, j + 1));
+        if (j == 0 || j == kSamplesPerPiece) return -1;
+        if (!(samples_[j] > 0 && samples_[j] <= samples_[j - 1] && samples_[j] < samples_[j + 1]))
+            return -1;
+        const double s = lowest_between(on_fit_, sample_time(h_, j - 1), sample_time(h_, j + 1));
         return on_fit_(s) < 0 ? s : -1;
     }
 
     double h_;
     OnFit on_fit_;
-    std::array<double, kGateLooks + 1> looks_;
+    std::array<double, kSamplesPerPiece + 1> samples_;
 };
 
-template <class AtLook, class OnFit>
-GateLooks(double, const AtLook&, OnFit) -> GateLooks<OnFit>;
+template <class AtSample, class OnFit>
+EventLocation(double, const AtSample&, OnFit) -> EventLocation<OnFit>;
 
 }  // namespace carom

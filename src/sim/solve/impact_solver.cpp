@@ -151,7 +151,7 @@ void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<Conta
         return;
     bodies = before_;
     if (friction && !many && solve_with_friction(bodies, contacts)) return;
-    solve_by_sweeps(bodies, contacts);
+    solve_by_gauss_seidel(bodies, contacts);
     ++sweeps_;
 }
 

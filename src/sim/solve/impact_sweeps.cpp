@@ -23,7 +23,7 @@ constexpr int kMostIdle = 16;
 
 }  // namespace
 
-void solve_by_sweeps(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
+void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
     std::vector<ContactRow> rows;
     rows.reserve(contacts.size());
     double scale = 0;

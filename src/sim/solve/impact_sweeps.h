@@ -16,6 +16,6 @@ namespace carom {
 /// and approach_speed (u, before the impact) of the contacts; sets the velocities of the bodies and
 /// impulse and tangential_impulse of the contacts. Where it does not converge within its bound, the
 /// bodies still approach a little; momentum is exact all the same.
-void solve_by_sweeps(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts);
+void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts);
 
 }  // namespace carom

@@ -135,7 +135,7 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<Contact>& c
     if (contacts.size() > kManyContacts || !solve_with_ode(bodies, contacts, gravity, seconds)) {
         for (ImpactBody& b : bodies) b.velocities.linear += seconds * gravity;
         world_->pushes = pushes;
-        solve_island_by_sweeps(bodies, contacts, world_->target, world_->pushes);
+        solve_island_by_gauss_seidel(bodies, contacts, world_->target, world_->pushes);
     }
     pushes = world_->pushes;
     for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -17,8 +17,9 @@ constexpr double kConverged = 1e-9;
 
 }  // namespace
 
-void solve_island_by_sweeps(std::vector<ImpactBody>& bodies, const std::vector<Contact>& contacts,
-                            const std::vector<double>& targets, std::vector<Vec3>& pushes) {
+void solve_island_by_gauss_seidel(std::vector<ImpactBody>& bodies,
+                                  const std::vector<Contact>& contacts,
+                                  const std::vector<double>& targets, std::vector<Vec3>& pushes) {
     std::vector<ContactRow> rows;
     rows.reserve(contacts.size());
     for (std::size_t i = 0; i < contacts.size(); ++i)

@@ -15,7 +15,8 @@ namespace carom {
 /// that it has found; they are replaced by those of this step.
 /// `bodies` have the velocities that they would have without contacts, and get those with them.
 /// Ends after a bounded number of sweeps with what has been reached: the next step goes on from it.
-void solve_island_by_sweeps(std::vector<ImpactBody>& bodies, const std::vector<Contact>& contacts,
-                            const std::vector<double>& targets, std::vector<Vec3>& pushes);
+void solve_island_by_gauss_seidel(std::vector<ImpactBody>& bodies,
+                                  const std::vector<Contact>& contacts,
+                                  const std::vector<double>& targets, std::vector<Vec3>& pushes);
 
 }  // namespace carom

@@ -4,11 +4,11 @@
 
 namespace carom {
 
-DueList::DueList(std::size_t balls) : heap_(std::max<std::size_t>(balls, 1)), place_(balls) {
+EventQueue::EventQueue(std::size_t balls) : heap_(std::max<std::size_t>(balls, 1)), place_(balls) {
     for (std::size_t i = 0; i < balls; ++i) set(i, {heap_[i].time, static_cast<int>(i)});
 }
 
-void DueList::put(int ball, double time) {
+void EventQueue::put(int ball, double time) {
     const std::size_t place = place_[static_cast<std::size_t>(ball)];
     const Entry entry{time, ball};
     if (before(entry, heap_[place]))
@@ -17,7 +17,7 @@ void DueList::put(int ball, double time) {
         move_down(place, entry);
 }
 
-void DueList::move_up(std::size_t place, const Entry& entry) {
+void EventQueue::move_up(std::size_t place, const Entry& entry) {
     while (place > 0) {
         const std::size_t parent = (place - 1) / kChildren;
         if (!before(entry, heap_[parent])) break;
@@ -27,7 +27,7 @@ void DueList::move_up(std::size_t place, const Entry& entry) {
     set(place, entry);
 }
 
-void DueList::move_down(std::size_t place, const Entry& entry) {
+void EventQueue::move_down(std::size_t place, const Entry& entry) {
     for (;;) {
         const std::size_t begin = kChildren * place + 1;
         const std::size_t end = std::min(begin + kChildren, heap_.size());

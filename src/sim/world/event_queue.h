@@ -13,14 +13,14 @@ namespace carom {
 ///
 /// A heap of four children a node whose entries move in place: an event that gives its ball another
 /// one costs a walk in a heap of one entry a ball, and nothing that was overtaken is left in it.
-class DueList {
+class EventQueue {
   public:
     struct Entry {
         double time = std::numeric_limits<double>::infinity();
         int ball = -1;
     };
 
-    explicit DueList(std::size_t balls);
+    explicit EventQueue(std::size_t balls);
     void put(int ball, double time);
     void drop(int ball) { put(ball, std::numeric_limits<double>::infinity()); }
     /// The time is infinite where nothing is due.

@@ -101,7 +101,7 @@ void ExactWorld::find_surfaces_ahead(int i, double t, double seconds,
             surface_tree->find_along(ahead, seconds, reach(i), found);
         return;
     }
-    const CurvedPath curved = curved_path(piece, t, seconds);
+    const HighDegreePath curved = high_degree_path(piece, t, seconds);
     surface_tree->find_near(Box3(curved.c[0]), reach(i) + curved.reach(), found);
 }
 

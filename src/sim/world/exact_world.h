@@ -28,7 +28,7 @@ struct alignas(64) ExactBall {
     bool leaves_at_end = false;  ///< the phase ends because the face does
     bool stepped = false;        ///< in an island that ODE steps; phase_end is the step's end
     bool asleep = false;         ///< in such an island, which rests until something touches it
-    bool crowded = false;        ///< a member of the crowd (pile.h), asleep or not
+    bool in_pile = false;        ///< a member of the pile (pile.h), asleep or not
     Piece piece;
     double mass = 0;            ///< kg
     double inertia_factor = 0;  ///< as in Ball
@@ -45,11 +45,11 @@ struct alignas(64) ExactBall {
     int calm_steps = 0;  ///< on end, in which it hardly moved
     int slow_steps = 0;  ///< on end, in which it moved, but slowly
     /// s, when the row of the lasting contact is due: at the end of its bouncing series.
-    double row_due = std::numeric_limits<double>::infinity();
+    double event_due = std::numeric_limits<double>::infinity();
 };
 
 /// What an island holds; only such a ball has links.
-inline bool is_stepped(const ExactBall& b) { return b.stepped || b.asleep; }
+inline bool has_island(const ExactBall& b) { return b.stepped || b.asleep; }
 
 /// Scene, balls and the geometry of who touches whom.
 class ExactWorld {

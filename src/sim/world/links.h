@@ -20,7 +20,7 @@ struct Link {
     // What the rows of EVENTS.csv say about it, kept with the ball that the scene names first.
     Contact last;  ///< as it was when it last pressed
     bool pressed = false;
-    double row_due = 0;       ///< s: the end of its bouncing series, before which nothing is stated
+    double event_due = 0;     ///< s: the end of its bouncing series, before which nothing is stated
     bool from_start = false;  ///< it exists at time 0: its first kind is no news
     EventKind stated = EventKind::kLeave;
     EventKind candidate = EventKind::kLeave;
@@ -33,7 +33,7 @@ inline constexpr double kSameInstant = 16 * std::numeric_limits<double>::epsilon
 
 /// Whether the bounces before a contact are not over at `now` [s].
 inline bool row_waits(const Link& link, double now) {
-    return link.row_due > now * (1 + kSameInstant);
+    return link.event_due > now * (1 + kSameInstant);
 }
 
 /// Per ball, its links. A link between two balls stands with both of them.

@@ -32,17 +32,17 @@ Vec3 centre(const ExactWorld& world, const Contact& c) {
 }
 
 /// 1 for a face or a plane, 2 for what is round along a line, 3 around a point.
-double roundness(const CurvedContact& feature) { return feature.across.trace(); }
+double roundness(const SingleContact& feature) { return feature.across.trace(); }
 
-bool is_flat(const CurvedContact& feature) { return roundness(feature) < 1.5; }
+bool is_flat(const SingleContact& feature) { return roundness(feature) < 1.5; }
 
-CurvedContact feature_at(const ExactWorld& world, const Contact& c, const Vec3& x, const Vec3& v) {
-    return curved_contact(world.surface(c.other.index).shape, x, v, world.ball(c.ball).radius,
+SingleContact feature_at(const ExactWorld& world, const Contact& c, const Vec3& x, const Vec3& v) {
+    return single_contact(world.surface(c.other.index).shape, x, v, world.ball(c.ball).radius,
                           world.scene.simulation.gravity);
 }
 
 /// The least acceleration along the normal that keeps a centre out of a feature [m/s^2].
-double demand_of(const CurvedContact& feature, const Vec3& x, const Vec3& v) {
+double demand_of(const SingleContact& feature, const Vec3& x, const Vec3& v) {
     const Vec3 q = feature.across * (x - feature.origin), moved = feature.across * v;
     const double distance = q.norm();
     const Vec3 n = q / distance;
@@ -61,7 +61,7 @@ Vec3 place_ahead(const ExactWorld& world, const Contact& c, const Vec3& x, const
 
 /// Whether feature `a` holds rather than `b`: the one that bends away less, then the flatter one.
 /// `size` [m/s^2]: of the accelerations at hand.
-bool holds_rather(const CurvedContact& a, const CurvedContact& b, const Vec3& x, const Vec3& v,
+bool holds_rather(const SingleContact& a, const SingleContact& b, const Vec3& x, const Vec3& v,
                   double size) {
     const double difference = demand_of(a, x, v) - demand_of(b, x, v);
     if (std::abs(difference) > kEqual * size) return difference > 0;
@@ -73,7 +73,7 @@ double size_of_demands(const ExactWorld& world, const Contact& c, const Vec3& v)
 }
 
 /// The contact with a feature instead of the nearest place of its surface.
-Contact contact_with(const ExactWorld& world, Contact c, const CurvedContact& feature,
+Contact contact_with(const ExactWorld& world, Contact c, const SingleContact& feature,
                      const Vec3& x) {
     const double radius = world.ball(c.ball).radius;
     c.normal = feature.normal_at(x);
@@ -96,8 +96,8 @@ bool same_place(const ExactWorld& world, const Contact& a, const Contact& b) {
     const double rounding = std::max(place_rounding(world, a, x), place_rounding(world, b, x));
     if (0.5 * world.ball(a.ball).radius * turned * turned > rounding) return false;
     // Two faces that meet at an angle, however small, are two places.
-    const CurvedContact of_a = feature_at(world, a, x, Vec3::Zero());
-    const CurvedContact of_b = feature_at(world, b, x, Vec3::Zero());
+    const SingleContact of_a = feature_at(world, a, x, Vec3::Zero());
+    const SingleContact of_b = feature_at(world, b, x, Vec3::Zero());
     return !(is_flat(of_a) && is_flat(of_b)) ||
            (of_a.normal_at(x) - of_b.normal_at(x)).norm() <= kOnePlane;
 }
@@ -110,7 +110,7 @@ bool holds_before(const ExactWorld& world, const Contact& a, const Contact& b, c
     if (a_comes != b_comes) return a_comes;
     const Vec3 v = tangential_part(velocities.linear, a.normal);
     const Vec3 y = place_ahead(world, a, x, v);
-    const CurvedContact of_a = feature_at(world, a, y, v), of_b = feature_at(world, b, y, v);
+    const SingleContact of_a = feature_at(world, a, y, v), of_b = feature_at(world, b, y, v);
     const double size = size_of_demands(world, a, v);
     if (holds_rather(of_a, of_b, y, v, size)) return true;
     if (holds_rather(of_b, of_a, y, v, size)) return false;
@@ -125,13 +125,13 @@ std::optional<SurfaceContact> goes_on_with(const ExactWorld& world, const Contac
     const Vec3 v = tangential_part(velocities.linear, held.normal);
     const Vec3 y = place_ahead(world, held, x, v);
     const double size = size_of_demands(world, held, v);
-    CurvedContact best = feature_at(world, held, y, v);
+    SingleContact best = feature_at(world, held, y, v);
     std::optional<SurfaceContact> found;
     const auto look = [&](int s) {
         if (s == held.other.index) return;
         const Contact c = world.surface_contact(held.ball, s, x);
         if (!is_in_reach(world, c, x) || !same_place(world, held, c)) return;
-        const CurvedContact feature = feature_at(world, c, y, v);
+        const SingleContact feature = feature_at(world, c, y, v);
         if (!holds_rather(feature, best, y, v, size)) return;
         best = feature;
         found = SurfaceContact{contact_with(world, c, feature, x), feature};
@@ -156,25 +156,25 @@ bool keeps_out(const ExactWorld& world, int ball, int surface, double from, doub
     return true;
 }
 
-void add_borders_of_others(const ExactWorld& world, const Contact& held, const CurvedState& at,
-                           CurvedContact& feature) {
+void add_borders_of_others(const ExactWorld& world, const Contact& held, const ContactState& at,
+                           SingleContact& feature) {
     const double border = kBorder * (at.x.cwiseAbs().maxCoeff() + world.ball(held.ball).radius);
     const auto look = [&](int s) {
         if (s == held.other.index) return;
         const Contact c = world.surface_contact(held.ball, s, at.x);
         if (!is_in_reach(world, c, at.x) || !same_place(world, held, c)) return;
-        const CurvedContact other = feature_at(world, c, at.x, at.v);
-        for (int i = 0; i < other.gate_count && feature.gate_count < kMostGates; ++i) {
-            const FeatureGate& gate = other.gates[static_cast<std::size_t>(i)];
+        const SingleContact other = feature_at(world, c, at.x, at.v);
+        for (int i = 0; i < other.border_count && feature.border_count < kMostBorders; ++i) {
+            const FeatureBorder& limit = other.borders[static_cast<std::size_t>(i)];
             // Where the ball is on that border already, it is a seam between the two.
-            if (gate.room(at.x) > border) feature.add_gate(gate.direction, gate.offset);
+            if (limit.margin(at.x) > border) feature.add_border(limit.direction, limit.offset);
         }
     };
     world.for_each_surface_near(held.ball, at.x, world.reach(held.ball), look);
     // A ball that goes along a border is not beyond it by what rounding makes of its place.
-    for (int i = 0; i < feature.gate_count; ++i) {
-        FeatureGate& gate = feature.gates[static_cast<std::size_t>(i)];
-        if (gate.room(at.x) <= border) gate.offset -= 2 * border;
+    for (int i = 0; i < feature.border_count; ++i) {
+        FeatureBorder& limit = feature.borders[static_cast<std::size_t>(i)];
+        if (limit.margin(at.x) <= border) limit.offset -= 2 * border;
     }
 }
 

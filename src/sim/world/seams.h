@@ -19,7 +19,7 @@ namespace carom {
 /// One ball's contact with a surface, and the feature that its motion leads to.
 struct SurfaceContact {
     Contact contact;
-    CurvedContact feature;
+    SingleContact feature;
 };
 
 /// Whether two contacts of one ball with surfaces are the same place: two faces of one plane, or an
@@ -46,8 +46,8 @@ void merge_places(const ExactWorld& world, const Vec3& x, const Velocities& velo
 /// Adds the borders of the features of other surfaces that meet the ball in the same place: where
 /// one of them ends, who holds the ball has to be decided anew. The borders that the ball is on are
 /// moved out by their width.
-void add_borders_of_others(const ExactWorld& world, const Contact& held, const CurvedState& at,
-                           CurvedContact& feature);
+void add_borders_of_others(const ExactWorld& world, const Contact& held, const ContactState& at,
+                           SingleContact& feature);
 
 // ---- Implementation
 // ------------------------------------------------------------------------------
