@@ -10,6 +10,8 @@ scripts/setup.sh --group film --group test --group bench --group long \
 
 echo "test_long: format"
 git ls-files 'src/*.cpp' 'src/*.h' 'tests/*.cpp' 'bench/*.cpp' | xargs clang-format --dry-run --Werror
+echo "test_long: the pages of all headers, without warnings"
+scripts/api_docs.sh
 echo "test_long: lint"
 git ls-files 'src/*.cpp' | xargs -P "$(nproc)" -n 4 clang-tidy --quiet -p build/dev
 

@@ -8,8 +8,9 @@
 namespace carom {
 
 /// A name, a path or another program's words in a message. What could move the cursor, colour the
-/// terminal, end the line or turn the direction of reading is written as an escape (\n, \x1b,
-/// \u202e), bytes that are no UTF-8 as \xNN; a text of more than `longest` bytes loses its middle.
+/// terminal, end the line or turn the direction of reading is written as an escape (`\n`, `\x1b`,
+/// `\u202e`), bytes that are no UTF-8 as `\xNN`; a text of more than `longest` bytes loses its
+/// middle.
 std::string readable(std::string_view text, std::size_t longest = 200);
 
 /// The same for a whole message, which may hold several names.

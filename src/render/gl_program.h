@@ -31,7 +31,7 @@ class GlProgram {
   public:
     struct Sources {
         std::string name;    ///< for messages
-        std::string vertex;  ///< whole text, #version included
+        std::string vertex;  ///< whole text, its `#version` included
         std::string fragment;
         std::vector<const char*> attributes;
         std::vector<const char*> outputs;
@@ -70,7 +70,7 @@ class GlProgram {
     std::vector<Value> values_;
 };
 
-/// A whole shader text: version, one #define per entry, common.glsl, and the named files.
+/// A whole shader text: version, one `#define` per entry, common.glsl, and the named files.
 std::string assemble_shader(const std::vector<std::string>& defines,
                             const std::vector<std::string_view>& files);
 

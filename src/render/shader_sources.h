@@ -5,7 +5,7 @@
 
 namespace carom {
 
-/// The text of shaders/<name>.glsl, or empty if there is none.
+/// The text of `shaders/NAME.glsl`, or empty if there is none.
 std::string_view shader_source(std::string_view name);
 
 }  // namespace carom

@@ -5,7 +5,7 @@
 
 namespace carom {
 
-/// The text of scenes/<name>.yaml: figure8, figure9. Empty for another name.
+/// The text of `scenes/NAME.yaml`: figure8, figure9. Empty for another name.
 std::string_view embedded_scene(std::string_view name);
 
 }  // namespace carom
