@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/overlap.h"
+#include "geometry/nearest.h"
 
 namespace carom::bench {
 

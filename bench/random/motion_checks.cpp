@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/overlap.h"
+#include "geometry/nearest.h"
 
 namespace carom::bench {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "draw.h"
+#include "geometry/nearest.h"
 #include "scene/overlap.h"
 #include "scene_parts.h"
 
