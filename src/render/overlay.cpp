@@ -49,10 +49,11 @@ class OverlayPainter::Impl {
         const Overlay& wanted = scene.overlay;
         if (runs.taken != nullptr) obstacles_ = *runs.taken;
         set_ruler();
+        if (wanted.ruler && !has_room_for_ruler(view)) left_out_.emplace_back("ruler");
         if (wanted.clock) {
             clock_.emplace(*wanted.clock, motion.duration, view_.width_px(), view_.height_px(),
                            palette_);
-            obstacles_.push_back(clock_->rect());
+            keep_if_whole(clock_, "clock");
         }
         set_text();
         const Scene& curves_scene = runs.curves ? runs.beside->scene : scene;
@@ -60,19 +61,19 @@ class OverlayPainter::Impl {
         if (wanted.plot && !wanted.plot->balls.empty()) {
             plot_.emplace(curves_scene, curves_motion, view_.width_px(), view_.height_px(),
                           obstacles_, palette_);
-            obstacles_.push_back(plot_->rect());
+            keep_if_whole(plot_, "plot");
         }
         if (const auto verdict = judge_rebound(scene, motion)) {
             verdict_.emplace(scene, motion, *verdict, view_.width_px(), view_.height_px(),
                              obstacles_, around_ruler(), palette_);
-            obstacles_.push_back(verdict_->rect());
+            keep_if_whole(verdict_, "verdict");
         }
         if (runs.second != nullptr) {
             OverlayAgainst::Surroundings around{around_ruler(), {}};
             if (runs.curves) around.places = ball_places(motion, *runs.second, view_);
             against_.emplace(scene, motion, *runs.second, view_.width_px(), view_.height_px(),
                              around, palette_);
-            obstacles_.push_back(against_->rect());
+            keep_if_whole(against_, "against");
         }
         if (wanted.peaks && !scene.balls.empty())
             peaks_.emplace(scene, motion, view_, around_ruler(), palette_);
@@ -81,6 +82,20 @@ class OverlayPainter::Impl {
         if (wanted.labels && !scene.balls.empty()) labels_.emplace(scene, motion, view_);
         if (wanted.trail && !scene.balls.empty())
             trails_.emplace(curves_scene, curves_motion, view_);
+    }
+
+    /// Leaves out what the picture has no room for.
+    template <class Element>
+    void keep_if_whole(std::optional<Element>& element, const char* name) {
+        const Rect rect = element->rect();
+        const bool inside = !rect.empty() && rect.x >= 0 && rect.y >= 0 &&
+                            rect.right() <= view_.width_px() && rect.bottom() <= view_.height_px();
+        if (inside) {
+            obstacles_.push_back(rect);
+            return;
+        }
+        element.reset();
+        left_out_.emplace_back(name);
     }
 
     void set_view(const View& view) {
@@ -117,16 +132,18 @@ class OverlayPainter::Impl {
 
     /// Title and caption.
     void set_text() {
-        const auto add = [&](std::optional<OverlayText>& text, const OverlayText::Request& wish) {
+        const auto add = [&](std::optional<OverlayText>& text, const OverlayText::Request& wish,
+                             const char* name) {
             text.emplace(wish, view_.width_px(), view_.height_px(), obstacles_, palette_);
-            obstacles_.push_back(text->rect());
+            keep_if_whole(text, name);
         };
         const Overlay& wanted = scene_.overlay;
         constexpr double kCaptionPx = 15;  // letters, at 720
         // Light letters want a plate on the light sky.
         const bool dark = wanted.theme == Theme::kDark;
-        if (wanted.title) add(title_, {scene_.title, wanted.title->size_px, true, dark});
-        if (!wanted.caption.empty()) add(caption_, {wanted.caption, kCaptionPx, false, true});
+        if (wanted.title) add(title_, {scene_.title, wanted.title->size_px, true, dark}, "title");
+        if (!wanted.caption.empty())
+            add(caption_, {wanted.caption, kCaptionPx, false, true}, "caption");
     }
 
     /// Makes the changed parts of `under_` again; returns the rectangle that holds them.
@@ -155,6 +172,7 @@ class OverlayPainter::Impl {
     std::optional<OverlayText> title_, caption_;
     std::optional<OverlayClock> clock_;
     std::vector<Rect> obstacles_;
+    std::vector<std::string> left_out_;
     std::optional<OverlayVerdict> verdict_;
     std::optional<OverlayLabels> labels_;
     std::optional<OverlayTrails> trails_;
@@ -178,6 +196,8 @@ void OverlayPainter::set_view(const View& view) { impl_->set_view(view); }
 const std::vector<OverlayPainter::Rect>& OverlayPainter::obstacles() const {
     return impl_->obstacles_;
 }
+
+const std::vector<std::string>& OverlayPainter::left_out() const { return impl_->left_out_; }
 
 Image OverlayPainter::static_under_layer() const {
     if (!impl_->ruler_) return {};

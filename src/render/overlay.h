@@ -75,6 +75,10 @@ class OverlayPainter {
     Rect update_moving_under_layer(double t);
     const Image& moving_under_layer() const;
 
+    /// What was asked for and is not drawn, since the picture has no room for it: ruler, clock,
+    /// title, caption, plot, verdict, against.
+    const std::vector<std::string>& left_out() const;
+
     /// Clock, text, plot, arrows, verdict and labels on the finished picture.
     void draw_over(double t, Image& picture) const;
 

@@ -93,7 +93,9 @@ OverlayAgainst::OverlayAgainst(const Scene& first, const Motion& motion, const S
     const int border = whole(std::max(overlay_px(18, height_px), 5.0));
     const double most_px = width_px - 2 * border - 2 * kSide * font_.size_px();
     if (text_px > most_px) {
-        font_ = Font(font_.size_px() * most_px / text_px);
+        const double fitting = font_.size_px() * most_px / text_px;
+        if (fitting < kLeastLetters) return;
+        font_ = Font(fitting);
         text_px = most_px;
         set_columns(lines);
     }

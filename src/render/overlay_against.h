@@ -27,7 +27,8 @@ class OverlayAgainst {
         std::vector<OverlayPainter::Rect> taken{};  ///< it stays clear of these
         std::vector<Vec2> places{};                 ///< and covers few of these, px
     };
-    /// The motions must outlive it.
+    /// The motions must outlive it. Without room for letters that could be read its rect() is
+    /// empty, and it must not be drawn.
     OverlayAgainst(const Scene& first, const Motion& motion, const SecondRun& second, int width_px,
                    int height_px, const Surroundings& around, const Palette& palette);
 

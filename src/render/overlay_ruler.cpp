@@ -89,10 +89,19 @@ std::string number_text(double height, double step) {
 
 double ruler_font_px(const View& view) { return letters_px(kNumbersPx, view.height_px()); }
 
+namespace {
+
+/// For the staff and its numbers, px.
+double room_px(const View& view) { return 3.5 * ruler_font_px(view); }
+
+}  // namespace
+
+bool has_room_for_ruler(const View& view) { return view.width_px() >= 2 * room_px(view); }
+
 std::optional<RulerStaff> stand_ruler(const Scene& scene, const Motion& motion, const View& view) {
-    if (!scene.overlay.ruler) return std::nullopt;
+    if (!scene.overlay.ruler || !has_room_for_ruler(view)) return std::nullopt;
     const MotionExtent extent(scene, motion);
-    const double room = 3.5 * ruler_font_px(view);
+    const double room = room_px(view);
     const auto foot_px = [&](const RulerStaff& staff) {
         const double middle = std::clamp(extent.ball_box().center().z(), staff.from_m,
                                          std::max(staff.from_m, staff.to_m));
@@ -138,6 +147,9 @@ std::optional<RulerLayout> lay_out_ruler(const RulerStaff& staff, const View& vi
     constexpr double kRounding = 1e-6;  // of a step: a tick at the very end belongs to the staff
     const double first = std::ceil(heights->low / step - kRounding);
     const double last = std::floor(heights->high / step + kRounding);
+    // So far up or down that marks are no longer apart by what a double can tell.
+    constexpr double kMostMarks = 1e12;  // from height 0
+    if (!(std::max(std::abs(first), std::abs(last)) < kMostMarks)) return std::nullopt;
     for (double k = first; k <= last; ++k) {
         RulerTick tick;
         tick.height_m = k * step;

@@ -35,7 +35,8 @@ struct RulerLayout {
 };
 
 /// The scene's ruler where this view shows it: left of the motion, or right of it if only that side
-/// has room, or at the place that the scene names.
+/// has room, or at the place that the scene names. Nothing in a picture that is hardly wider than
+/// its numbers.
 std::optional<RulerStaff> stand_ruler(const Scene& scene, const Motion& motion, const View& view);
 
 /// Steps of 1, 2 or 5 times a power of ten, chosen so that numbers and ticks have room.
@@ -45,6 +46,8 @@ std::optional<RulerLayout> lay_out_ruler(const RulerStaff& staff, const View& vi
 /// A picture of the view's size with the ruler on transparent.
 Image draw_ruler(const RulerLayout& layout, const View& view, const Font& font,
                  const Palette& palette = {});
+
+bool has_room_for_ruler(const View& view);
 
 /// Size of the ruler's numbers, px.
 double ruler_font_px(const View& view);

@@ -28,6 +28,8 @@ inline Ink with_alpha(const Ink& ink, double alpha) { return {ink.r, ink.g, ink.
 
 /// Letters smaller than this are not legible.
 inline constexpr double kSmallestLetters = 9.5;
+/// Text that would have to shrink below this to fit is left out.
+inline constexpr double kLeastLetters = 4;
 
 /// A length given at a picture height of 720 pixels.
 inline double overlay_px(double at_720, int height_px) { return at_720 * height_px / 720; }

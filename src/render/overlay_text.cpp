@@ -180,6 +180,7 @@ OverlayText::OverlayText(const Request& request, int width_px, int height_px,
         if (lines_.size() <= attempt.most_lines) break;
     }
     const double size = font->size_px(), side = kSide * size;
+    if (room.width - 2 * side < width_of(*font, kEllipsis)) return;
     cut(*font, lines_, most, room.width - 2 * side);
 
     double text_width = 0;

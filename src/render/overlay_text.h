@@ -16,7 +16,7 @@ std::vector<std::string> break_lines(const Font& font, const std::string& text, 
 /// Text that stands still in the middle of the picture's upper or lower edge. It stays clear of
 /// what is `taken`: beside it where there is room, else further inside. Letters shrink, and at last
 /// the text is cut with an ellipsis, rather than leave the picture or cover more than a third of
-/// it.
+/// it. Without room for the ellipsis its rect() is empty, and it must not be drawn.
 class OverlayText {
   public:
     struct Request {

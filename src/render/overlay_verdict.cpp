@@ -137,7 +137,9 @@ OverlayVerdict::OverlayVerdict(const Scene& scene, const Motion& motion,
     const Font wanted(letters);
     // Narrow pictures get smaller letters rather than a plate that hangs out.
     const double in_line = wanted.lay_out(said.in_one_line() + said.verdict + "mmm").width_px;
-    const Font narrow(letters * std::min(1.0, 0.96 * width_px / in_line));
+    const double fitting = letters * std::min(1.0, 0.96 * width_px / in_line);
+    if (fitting < kLeastLetters) return;
+    const Font narrow(fitting);
     plate_ = Plate(narrow, palette, verdict.passes).in_one_line(said);
 
     using Rect = OverlayPainter::Rect;

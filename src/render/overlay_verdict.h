@@ -14,7 +14,8 @@ class OverlayVerdict {
   public:
     /// `scene` has a test. The plate stands in the middle of the top, below what is `written`
     /// there; where it would cover more of what is `taken` (`written`, and the ruler), in the
-    /// middle of the bottom, or in rows at a side. If there is no room at all, at the top.
+    /// middle of the bottom, or in rows at a side. If there is no room at all, at the top; where
+    /// its letters could not be read there, rect() is empty, and it must not be drawn.
     OverlayVerdict(const Scene& scene, const Motion& motion, const ReboundVerdict& verdict,
                    int width_px, int height_px, const std::vector<OverlayPainter::Rect>& written,
                    const std::vector<OverlayPainter::Rect>& taken, const Palette& palette = {});

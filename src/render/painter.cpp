@@ -370,6 +370,8 @@ std::map<std::string, Painter::DrawnEffect> Painter::Impl::effects() const {
     for (const auto& [name, on] : asked) add(name, on, "the scene asks for it", "not asked for");
     add("verdict", scene_.test.has_value(), "the scene has a test", "the scene has no test");
     add("against", passes_->has_ghosts(), "a second run as ghosts", "no second run");
+    for (const std::string& name : setup_.overlay.left_out())
+        if (name != "against") result[name] = {false, "the picture has no room for it"};
     add("motion_blur", mean_.has_value(), "film.shutter_deg is above 0", "film.shutter_deg is 0");
     if (mean_)
         result["motion_blur"].why += fmt::format("; at most {} instants a picture", most_instants_);

@@ -136,6 +136,9 @@ std::map<std::string, Painter::DrawnEffect> SideBySide::effects() const {
     set("clock", whole_scene_.overlay.clock.has_value());
     set("title", whole_scene_.overlay.title.has_value());
     set("caption", !whole_scene_.overlay.caption.empty());
+    // The halves say what has no room in them.
+    for (const std::string& name : overlay_->left_out())
+        effects[name] = {false, "the picture has no room for it"};
     effects["against"] = {true, "two runs side by side"};
     return effects;
 }

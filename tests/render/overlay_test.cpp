@@ -142,6 +142,21 @@ TEST(Ruler, TicksStandWhereTheirHeightsProjectTo) {
     }
 }
 
+TEST(Ruler, IsLeftOutWhereItsMarksCannotBeToldApart) {
+    for (const double height : {1e3, 1e6, 1e9, 1e12, 1e15, 1e17, 1e100}) {
+        Sample sample = empty_floor(1);
+        sample.scene.overlay.ruler = RulerOptions{};
+        add_ball(sample, "ball", 0.1, {straight(0, Vec3(0, 0, height), Vec3::Zero())});
+        const View view = view_of(sample, {1280, 720});
+        const auto staff = stand_ruler(sample.scene, sample.motion, view);
+        ASSERT_TRUE(staff);
+        const auto layout = lay_out_ruler(*staff, view);
+        fmt::print("ball at {} m: {} marks\n", height, layout ? layout->ticks.size() : 0);
+        EXPECT_TRUE(layout || height > 1e6);
+        EXPECT_LT(layout ? layout->ticks.size() : 0, 300u);
+    }
+}
+
 TEST(Ruler, LiesInsideTheFramedPicture) {
     Sample sample = five_balls();
     sample.scene.overlay.ruler = RulerOptions{};
