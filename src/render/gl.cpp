@@ -21,8 +21,6 @@ const char* error_name(GLenum error) {
             return "GL_INVALID_OPERATION";
         case GL_INVALID_FRAMEBUFFER_OPERATION:
             return "GL_INVALID_FRAMEBUFFER_OPERATION";
-        case GL_OUT_OF_MEMORY:
-            return "GL_OUT_OF_MEMORY";
         default:
             return "unknown error";
     }
@@ -38,8 +36,6 @@ const char* status_name(GLenum status) {
             return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
         case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER:
             return "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER";
-        case GL_FRAMEBUFFER_UNSUPPORTED:
-            return "GL_FRAMEBUFFER_UNSUPPORTED";
         default:
             return "unknown status";
     }
@@ -69,6 +65,11 @@ Gl Gl::load(Loader loader) {
 
 void Gl::check(const std::string& attempted) const {
     const GLenum error = GetError();
+    if (error == GL_OUT_OF_MEMORY)
+        throw Failure(FailureKind::kRun,
+                      fmt::format("out of memory: the driver had no room while {}; draw a smaller "
+                                  "picture (--size)",
+                                  attempted));
     if (error != GL_NO_ERROR)
         throw Failure(FailureKind::kRun, fmt::format("OpenGL failed while {}: {} ({:#x})",
                                                      attempted, error_name(error), error));
@@ -121,6 +122,12 @@ GlFramebuffer make_framebuffer(const Gl& gl, const std::string& purpose,
     }
     gl.DrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.data());
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+    // Drivers have to support these formats: what they lack is memory, which they ask for late.
+    if (status == GL_FRAMEBUFFER_UNSUPPORTED)
+        throw Failure(FailureKind::kRun,
+                      fmt::format("out of memory: the driver has no room for {}; draw a smaller "
+                                  "picture (--size)",
+                                  purpose));
     if (status != GL_FRAMEBUFFER_COMPLETE)
         throw Failure(FailureKind::kRun,
                       fmt::format("the framebuffer for {} is incomplete: {} ({:#x})", purpose,

@@ -239,6 +239,7 @@ class Faults(ProgramTest):
                 self.assertIn(result.returncode, (0, 1), f"{megabytes} MB: {words} {result.stderr}")
                 if result.returncode == 1:
                     self.assertRegex(result.stderr, b"(?i)memory|thread|unavailable|failed to map", words)
+                    self.assertNotIn(b"GL_", result.stderr)
 
 
 class Terminals(ProgramTest):
