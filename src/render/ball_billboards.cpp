@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "render/caster_cells.h"
+
 namespace carom {
 
 namespace {
@@ -153,11 +155,13 @@ GlProgram& BallBillboards::program_of(LookStyle style) {
 
 BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInView>& balls) const {
     Casters casters;
+    const CasterCells cells(balls, to_light_);
     for (const BallInView& ball : balls) {
         const int first = static_cast<int>(casters.vec4s.size() / 4);
         int count = 0;
-        for (const BallInView& other : balls) {
-            if (&other == &ball || other.instant != ball.instant || count == kMostCasters) continue;
+        for (const int number : cells.near(ball)) {
+            const BallInView& other = balls[static_cast<std::size_t>(number)];
+            if (&other == &ball || other.instant != ball.instant) continue;
             // Between the ball and the lamp, within the penumbra's reach, or close enough to
             // darken.
             const Vec3 rel = other.center - ball.center;
@@ -168,9 +172,9 @@ BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInVie
             const double wide = reach + std::max(0.0, along) * light_tan_;
             if (across2 > wide * wide) continue;
             // A lamp that looks much larger than the caster hides the shadow.
-            if (along * light_tan_ > 8 * other.radius) continue;
+            if (along * light_tan_ > kLargestLamp * other.radius) continue;
             put(casters.vec4s, rel / ball.radius, other.radius / ball.radius);
-            ++count;
+            if (++count == kMostCasters) break;
         }
         casters.first.push_back(first);
         casters.count.push_back(count);

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "render/body_bounds.h"
+#include "render/plane_tiles.h"
 #include "render/screen_tiles.h"
 
 namespace carom {
@@ -62,6 +64,7 @@ class Sorter {
     double blur(double distance, const Flat& flat) const;
     void join_rectangles(BodyTiles& tiles);
     std::array<float, 4> range_of(const Set& set, BodyTiles& tiles);
+    std::array<float, 4> planes_of(std::size_t tile, BodyTiles& tiles);
 
     const SurfaceTable& table_;
     ScreenTiles grid_;
@@ -75,6 +78,8 @@ class Sorter {
     std::vector<int> stamps_;          ///< per tile
     int stamp_ = 0;
     std::map<Set, std::array<float, 4>> ranges_;
+    std::optional<PlaneTiles> planes_;  ///< where they are many
+    std::map<std::vector<int>, std::array<float, 2>> plane_ranges_;
 };
 
 Sorter::Sorter(const SurfaceTable& table, const View& view, const Lights& lights,
@@ -92,7 +97,16 @@ Sorter::Sorter(const SurfaceTable& table, const View& view, const Lights& lights
       seen_(grid_.count(), Set(bodies_.size())),
       shading_(seen_),
       stamps_(grid_.count()) {
+    std::vector<bool> shown(static_cast<std::size_t>(table.planes), true);
+    if (table.planes > kFewPlanes) {
+        planes_ = sort_planes_into_tiles(table, view, scale);
+        shown.assign(shown.size(), false);
+        for (const std::vector<int>& seen : planes_->seen)
+            for (const int plane : seen) shown[static_cast<std::size_t>(plane)] = true;
+    }
+    if (bodies_.empty()) return;  // nothing casts a shadow on planes
     for (int i = 0; i < table.planes; ++i) {
+        if (!shown[static_cast<std::size_t>(i)]) continue;
         const Eigen::Vector4d plane = table.at(i, 0);
         flats_.push_back({plane.head<3>(), plane.w(), table.at(i, 1).x() > 0, -1, {}});
         if (!orthographic_) flats_.back().tiles = horizon(flats_.back().normal);
@@ -104,18 +118,35 @@ std::vector<std::size_t> Sorter::horizon(const Vec3& normal) const {
     constexpr double kFlat = 10;  // pixels: beyond, a pixel reaches an eighth of the way and less
     std::vector<std::size_t> tiles;
     const Vec2 middle(0.5 * width_px_, 0.5 * height_px_);
+    struct Sides {
+        bool above, below;
+    };
+    // Of a row of corners, each of which up to four tiles share.
+    const auto sides_along = [&](int row) {
+        std::vector<Sides> sides;
+        for (int column = 0; column <= grid_.columns(); ++column) {
+            const Vec2 across = (ScreenTiles::kTilePx * Vec2(column, row) - middle) * pixel_;
+            const Vec3 ray(across.x(), across.y(), 1);
+            const double facing = normal.dot(ray), flat = kFlat * pixel_ * ray.norm();
+            sides.push_back({facing > -flat, facing < flat});
+        }
+        return sides;
+    };
+    std::vector<Sides> upper = sides_along(0);
     for (int row = 0; row < grid_.rows(); ++row) {
+        std::vector<Sides> lower = sides_along(row + 1);
         for (int column = 0; column < grid_.columns(); ++column) {
             bool above = false, below = false;
-            for (const int corner : {0, 1, 2, 3}) {
-                const Vec2 px = ScreenTiles::kTilePx * Vec2(column + corner % 2, row + corner / 2);
-                const Vec2 across = (px - middle) * pixel_;
-                const Vec3 ray(across.x(), across.y(), 1);
-                above = above || normal.dot(ray) > -kFlat * pixel_ * ray.norm();
-                below = below || normal.dot(ray) < kFlat * pixel_ * ray.norm();
+            for (const auto* corners : {&upper, &lower}) {
+                for (const int corner : {column, column + 1}) {
+                    const Sides& sides = (*corners)[static_cast<std::size_t>(corner)];
+                    above = above || sides.above;
+                    below = below || sides.below;
+                }
             }
             if (above && below) tiles.push_back(grid_.index(column, row));
         }
+        upper = std::move(lower);
     }
     return tiles;
 }
@@ -302,14 +333,36 @@ std::array<float, 4> Sorter::range_of(const Set& set, BodyTiles& tiles) {
     return found->second;
 }
 
+/// Of either list of planes, where it begins and ends among the entries.
+std::array<float, 4> Sorter::planes_of(std::size_t tile, BodyTiles& tiles) {
+    std::array<float, 4> ranges{};
+    if (!planes_) return ranges;
+    const auto place = [&](const std::vector<int>& planes, std::size_t at) {
+        const auto [found, is_new] = plane_ranges_.try_emplace(planes);
+        if (is_new) {
+            found->second[0] = static_cast<float>(tiles.entries.size() / 4);
+            for (const int plane : planes)
+                tiles.entries.insert(tiles.entries.end(), {static_cast<float>(plane), 0, 0, 0});
+            found->second[1] = static_cast<float>(tiles.entries.size() / 4);
+        }
+        ranges[at] = found->second[0];
+        ranges[at + 1] = found->second[1];
+    };
+    place(planes_->seen[tile], 0);
+    place(planes_->shading[tile], 2);
+    return ranges;
+}
+
 /// Neighbouring tiles with the same lists become one rectangle: along a row, then downwards.
 void Sorter::join_rectangles(BodyTiles& tiles) {
     struct Run {
         int first_column, last_column, row;
-        std::array<float, 4> seen, shading;
+        std::array<float, 4> seen, shading, planes;
+        bool same_lists(const Run& o) const {
+            return seen == o.seen && shading == o.shading && planes == o.planes;
+        }
         bool same(const Run& o) const {
-            return first_column == o.first_column && last_column == o.last_column &&
-                   seen == o.seen && shading == o.shading;
+            return first_column == o.first_column && last_column == o.last_column && same_lists(o);
         }
     };
     std::vector<Run> open;
@@ -321,14 +374,19 @@ void Sorter::join_rectangles(BodyTiles& tiles) {
             tiles.rectangles.push_back(static_cast<float>(px));
         tiles.rectangles.insert(tiles.rectangles.end(), run.seen.begin(), run.seen.end());
         tiles.rectangles.insert(tiles.rectangles.end(), run.shading.begin(), run.shading.end());
+        tiles.rectangles.insert(tiles.rectangles.end(), run.planes.begin(), run.planes.end());
     };
     for (int row = 0; row < grid_.rows(); ++row) {
         std::vector<Run> runs;
         for (int column = 0; column < grid_.columns(); ++column) {
             const std::size_t tile = grid_.index(column, row);
-            const Run run{column, column, row, range_of(seen_[tile], tiles),
-                          range_of(shading_[tile], tiles)};
-            if (!runs.empty() && runs.back().seen == run.seen && runs.back().shading == run.shading)
+            const Run run{column,
+                          column,
+                          row,
+                          range_of(seen_[tile], tiles),
+                          range_of(shading_[tile], tiles),
+                          planes_of(tile, tiles)};
+            if (!runs.empty() && runs.back().same_lists(run))
                 runs.back().last_column = column;
             else
                 runs.push_back(run);
@@ -365,7 +423,7 @@ BodyTiles Sorter::sorted() {
 
 BodyTiles sort_into_tiles(const SurfaceTable& table, const View& view, const Lights& lights,
                           const PictureScale& scale) {
-    if (table.boxes + table.spheres + table.capsules == 0)
+    if (table.boxes + table.spheres + table.capsules == 0 && table.planes <= kFewPlanes)
         return all_bodies_everywhere(table, view);
     return Sorter(table, view, lights, scale).sorted();
 }
@@ -377,8 +435,12 @@ BodyTiles all_bodies_everywhere(const SurfaceTable& table, const View& view) {
     tiles.rectangles = {0, 0, f(view.width_px()), f(view.height_px())};
     for (int list = 0; list < 2; ++list)
         tiles.rectangles.insert(tiles.rectangles.end(), {0, f(boxes), f(round), f(all)});
+    tiles.rectangles.insert(tiles.rectangles.end(),
+                            {f(all), f(all + table.planes), f(all), f(all + table.planes)});
     for (int body = 0; body < all; ++body)
         tiles.entries.insert(tiles.entries.end(), {f(table.planes + body), 0, 0, 0});
+    for (int plane = 0; plane < table.planes; ++plane)
+        tiles.entries.insert(tiles.entries.end(), {f(plane), 0, 0, 0});
     tiles.entries.insert(tiles.entries.end(), 4, 0.0F);
     return tiles;
 }

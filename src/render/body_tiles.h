@@ -1,4 +1,4 @@
-// Which bodies the static picture's shader has to look at, part of the picture by part.
+// Which bodies and planes the static picture's shader has to look at, part of the picture by part.
 #pragma once
 
 #include <vector>
@@ -14,9 +14,10 @@ namespace carom {
 /// that may take light from what is seen there. Bodies that are not listed would change nothing.
 struct BodyTiles {
     /// Per rectangle: left, top, right, bottom [px]; of either list the first entry and where its
-    /// boxes, spheres and capsules end (whole numbers).
+    /// boxes, spheres and capsules end (whole numbers); first entry and end of either list of
+    /// planes. Planes are listed where there are more than kFewPlanes.
     std::vector<float> rectangles;
-    static constexpr int kRectangleFloats = 12;
+    static constexpr int kRectangleFloats = 16;
     /// A vec4 per entry: x is the record in the table. One more at the end, so that the shader can
     /// read where an empty list begins.
     std::vector<float> entries;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/overlay_places.h"
 #include "render/overlay_style.h"
 #include "scene/film_clock.h"
 
@@ -24,7 +25,7 @@ bool overlap(const Rect& a, const Rect& b) {
 /// A label that looks for its place; y is its top edge.
 struct Seeker {
     double x, y, width, height;
-    const std::vector<Rect>& taken;
+    const TakenPlaces& taken;
 
     Rect rounded() const {
         return {static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)),
@@ -32,29 +33,36 @@ struct Seeker {
     }
     const Rect* in_the_way() const {
         const Rect here = rounded();
-        for (const Rect& other : taken)
-            if (overlap(here, other)) return &other;
-        return nullptr;
+        const std::size_t first =
+            taken.first_near(here, 0, 0, [&](const Rect& other) { return overlap(here, other); });
+        return first < taken.count() ? &taken[first] : nullptr;
     }
 
     /// Moves straight away from the centres of those in the way until it just touches them. With
     /// distances in units of half the sizes, the overlap is a square around the other's centre,
     /// and a point inside goes along its ray to the square's edge: continuous but in the centre.
     void give_way() {
-        for (const Rect& other : taken) {
-            const double dx = x + 0.5 * width - (other.x + 0.5 * other.width);
-            const double dy = y + 0.5 * height - (other.y + 0.5 * other.height);
+        double dx = 0, dy = 0, inside = 0;
+        const auto meets = [&](const Rect& other) {
+            dx = x + 0.5 * width - (other.x + 0.5 * other.width);
+            dy = y + 0.5 * height - (other.y + 0.5 * other.height);
             const double u = std::abs(dx) / (0.5 * (width + other.width) + kBetween);
             const double v = std::abs(dy) / (0.5 * (height + other.height) + kBetween);
-            const double inside = std::max(u, v);
-            if (inside >= 1 || inside == 0) continue;
+            inside = std::max(u, v);
+            return inside < 1 && inside > 0;
+        };
+        constexpr int kAround = kBetween + 1;  // and rounding
+        for (std::size_t next = 0;; ++next) {
+            next = taken.first_near(rounded(), kAround, next, meets);
+            if (next >= taken.count()) return;
+            meets(taken[next]);
             x += dx * (1 / inside - 1);
             y += dy * (1 / inside - 1);
         }
     }
     /// To the nearest free place in one direction.
     void evade(double direction) {
-        for (std::size_t i = 0; i <= taken.size(); ++i) {
+        for (std::size_t i = 0; i <= taken.count(); ++i) {
             const Rect* other = in_the_way();
             if (!other) return;
             y = direction < 0 ? other->y - height - kBetween : other->y + other->height + kBetween;
@@ -74,7 +82,7 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelWish>
                                                     int width_px, int height_px,
                                                     const std::vector<Rect>& obstacles) {
     std::vector<std::optional<LabelPlace>> places(wishes.size());
-    std::vector<Rect> taken = obstacles;
+    TakenPlaces taken(width_px, height_px, obstacles);
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         const LabelWish& wish = wishes[i];
         if (!wish.in_picture || wish.width > width_px || wish.height > height_px) continue;
@@ -98,33 +106,44 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelWish>
         const Rect rect = label.rounded();
         if (rect.y < 0 || rect.y > lowest || label.in_the_way()) continue;
         places[i] = LabelPlace{rect};
-        taken.push_back(rect);
+        taken.add(rect);
     }
     return places;
 }
 
 OverlayLabels::OverlayLabels(const Scene& scene, const Motion& motion, const View& view)
-    : scene_(scene), motion_(motion), view_(view), palette_(palette_of(scene.overlay.theme)) {
-    const double size = letters_px(scene.overlay.labels->size_px, view.height_px());
-    const Font font(size);
-    const double halo = 0.2 * size;
-    gap_px_ = 0.15 * size;
+    : scene_(scene),
+      motion_(motion),
+      view_(view),
+      palette_(palette_of(scene.overlay.theme)),
+      font_(letters_px(scene.overlay.labels->size_px, view.height_px())),
+      halo_px_(0.2 * font_.size_px()),
+      gap_px_(0.15 * font_.size_px()),
+      pictures_(scene.balls.size()) {
+    const double border = std::ceil(halo_px_);
+    height_px_ =
+        static_cast<int>(std::ceil(font_.cap_height_px() + font_.descent_px() + 2 * border));
     for (const Ball& ball : scene.balls) {
-        const TextRun run = font.lay_out(label_text(ball.name));
-        const double border = std::ceil(halo);
-        const double height = std::ceil(font.cap_height_px() + font.descent_px() + 2 * border);
-        Image picture(static_cast<int>(std::ceil(run.width_px + 2 * border)),
-                      static_cast<int>(height));
-        Canvas canvas(picture);
-        const double base = std::round(height - border - font.descent_px());
-        font.draw(canvas, run, border, base, palette_.ink, halo, palette_.paper);
-        canvas.finish();
-        pictures_.push_back(std::move(picture));
+        const double text_px = font_.lay_out(label_text(ball.name)).width_px;
+        widths_px_.push_back(static_cast<int>(std::ceil(text_px + 2 * border)));
     }
 }
 
+const Image& OverlayLabels::picture_of(std::size_t ball) const {
+    Image& picture = pictures_[ball];
+    if (picture.width_px != 0) return picture;
+    const double border = std::ceil(halo_px_);
+    picture = Image(widths_px_[ball], height_px_);
+    Canvas canvas(picture);
+    const double base = std::round(height_px_ - border - font_.descent_px());
+    font_.draw(canvas, font_.lay_out(label_text(scene_.balls[ball].name)), border, base,
+               palette_.ink, halo_px_, palette_.paper);
+    canvas.finish();
+    return picture;
+}
+
 std::vector<LabelWish> OverlayLabels::wishes(double t) const {
-    std::vector<LabelWish> wishes(pictures_.size());
+    std::vector<LabelWish> wishes(widths_px_.size());
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         const View::Projected center = view_.project(motion_.balls[i].at(t).position);
         const double radius = scene_.balls[i].radius;
@@ -135,8 +154,8 @@ std::vector<LabelWish> OverlayLabels::wishes(double t) const {
                           center.y_px < view_.height_px() + radius_px;
         wish.center_x = center.x_px;
         wish.bottom_y = center.y_px - radius_px - gap_px_;
-        wish.width = pictures_[i].width_px;
-        wish.height = pictures_[i].height_px;
+        wish.width = widths_px_[i];
+        wish.height = height_px_;
     }
     return wishes;
 }
@@ -163,7 +182,7 @@ Eigen::MatrixXd OverlayLabels::closeness(double t) const {
     constexpr int kSteps = 16;        // to either side
     constexpr double kReach_s = 0.5;  // of film
     constexpr double kStep_s = kReach_s / kSteps;
-    const auto count = static_cast<Eigen::Index>(pictures_.size());
+    const auto count = static_cast<Eigen::Index>(widths_px_.size());
     Eigen::MatrixXd close = Eigen::MatrixXd::Zero(count, count);
     std::vector<LabelWish> before, after;
     const double now_s = film_time(scene_.film, t);
@@ -251,7 +270,7 @@ void OverlayLabels::draw(double t, const std::vector<Rect>& obstacles, Image& pi
         canvas->finish();
     }
     for (std::size_t i = 0; i < places.size(); ++i)
-        if (places[i]) lay_over(pictures_[i], places[i]->rect.x, places[i]->rect.y, picture);
+        if (places[i]) lay_over(picture_of(i), places[i]->rect.x, places[i]->rect.y, picture);
 }
 
 }  // namespace carom

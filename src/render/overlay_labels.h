@@ -58,6 +58,8 @@ class OverlayLabels {
     void draw(double t, const std::vector<OverlayPainter::Rect>& obstacles, Image& picture) const;
 
   private:
+    /// With halo; drawn when it is first shown, for of thousands few have room.
+    const Image& picture_of(std::size_t ball) const;
     std::vector<LabelWish> wishes(double t) const;  ///< above the balls
     std::vector<LabelWish> spread_wishes(double t) const;
     /// How level each pair of labels is around t, for spread_labels().
@@ -67,8 +69,12 @@ class OverlayLabels {
     const Motion& motion_;
     View view_;
     Palette palette_;
-    double gap_px_ = 0;            ///< between a ball and its label
-    std::vector<Image> pictures_;  ///< per ball, with halo
+    Font font_;
+    double halo_px_;
+    double gap_px_;               ///< between a ball and its label
+    int height_px_ = 0;           ///< of each picture
+    std::vector<int> widths_px_;  ///< per ball
+    mutable std::vector<Image> pictures_;
 };
 
 }  // namespace carom

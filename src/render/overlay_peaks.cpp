@@ -16,7 +16,8 @@ namespace {
 
 using Rect = OverlayPainter::Rect;
 
-constexpr std::size_t kMostMarks = 400;  // more than a picture has room for
+constexpr std::size_t kMostMarks = 400;        // more than a picture has room for
+constexpr std::size_t kMostLookedAt = 50'000;  // most of so many run together
 constexpr double kLeastStep = 0.35;  // of the letters; marks of a ball that are closer run together
 
 double line_px(const View& view) { return std::max(overlay_px(1.3, view.height_px()), 0.9); }
@@ -38,11 +39,15 @@ struct BallPeak {
 /// The first peaks of all balls, in order of time.
 std::vector<BallPeak> peaks_in_order(const Motion& motion) {
     std::vector<BallPeak> all;
-    for (std::size_t i = 0; i < motion.peaks.size(); ++i)
-        for (const Peak& peak : motion.peaks[i]) all.push_back({static_cast<int>(i), peak});
+    for (std::size_t i = 0; i < motion.peaks.size(); ++i) {
+        const std::size_t count = std::min(motion.peaks[i].size(), kMostLookedAt);
+        for (std::size_t k = 0; k < count; ++k)
+            all.push_back({static_cast<int>(i), motion.peaks[i][k]});
+    }
     std::stable_sort(all.begin(), all.end(), [](const BallPeak& a, const BallPeak& b) {
         return a.peak.time < b.peak.time;
     });
+    if (all.size() > kMostLookedAt) all.erase(all.begin() + kMostLookedAt, all.end());
     return all;
 }
 

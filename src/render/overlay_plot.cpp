@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "render/height_range.h"
 #include "render/overlay_labels.h"
 #include "render/overlay_trail.h"
 
@@ -38,30 +38,22 @@ std::string number_text(double value, double step) {
     return value < -0.5 * step ? "\u2212" + text : text;
 }
 
-struct Interval {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-    void add(double value) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-};
-
-/// What the heights of one ball reach: at the ends of its pieces and where it turns.
+/// What the heights of one ball's lowest point reach.
 void add_heights(const Trajectory& path, double radius, double first, double last,
-                 Interval& heights) {
+                 HeightRange& heights) {
+    HeightRange centre;
     const auto& pieces = path.pieces();
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const double end = i + 1 < pieces.size() ? std::min(pieces[i + 1].start, last) : last;
         const double begin = std::max(pieces[i].start, first);
-        if (begin > end) continue;
-        heights.add(pieces[i].position_at(begin).z() - radius);
-        heights.add(pieces[i].position_at(end).z() - radius);
-        const double fall = pieces[i].acceleration.z();
-        const double top = fall != 0 ? pieces[i].start - pieces[i].velocity.z() / fall : begin;
-        if (top > begin && top < end) heights.add(pieces[i].position_at(top).z() - radius);
+        if (begin <= end) centre.add(pieces[i], begin, end);
     }
+    heights.add(centre.low_m - radius);
+    heights.add(centre.high_m - radius);
 }
+
+/// What the axis of time spans at least, s: so much that marks are apart by more than rounding.
+double least_span_s(const Motion& motion) { return 1e-9 * std::max(1.0, motion.duration); }
 
 }  // namespace
 
@@ -70,22 +62,23 @@ PlotAxes choose_plot_axes(const Scene& scene, const Motion& motion, double most_
     PlotAxes axes;
     axes.first_s = scene.film.start;
     axes.high_m = axes.low_m = 0;
-    Interval heights;
+    HeightRange heights;
     for (const int ball : scene.overlay.plot->balls) {
         const auto i = static_cast<std::size_t>(ball);
         add_heights(motion.balls[i], scene.balls[i].radius, axes.first_s, motion.duration, heights);
     }
     constexpr double kNearZero = 0.6;  // of the far end: then the axis starts at 0
-    if (heights.low > 0 && heights.low < kNearZero * heights.high) heights.low = 0;
-    if (heights.high < 0 && heights.high > kNearZero * heights.low) heights.high = 0;
+    if (heights.low_m > 0 && heights.low_m < kNearZero * heights.high_m) heights.low_m = 0;
+    if (heights.high_m < 0 && heights.high_m > kNearZero * heights.low_m) heights.high_m = 0;
     // What does not move gets an axis of its own size.
-    const double least = 1e-6 * std::max({std::abs(heights.low), std::abs(heights.high), 1.0});
-    axes.step_m = step_at_least(std::max(heights.high - heights.low, least) / most_lines_m);
+    const double least = 1e-6 * std::max({std::abs(heights.low_m), std::abs(heights.high_m), 1.0});
+    axes.step_m = step_at_least(std::max(heights.high_m - heights.low_m, least) / most_lines_m);
     constexpr double kRounding = 1e-9;  // of a step: 2.0000000001 m ends at the line of 2 m
-    axes.low_m = axes.step_m * std::floor(heights.low / axes.step_m + kRounding);
-    axes.high_m = axes.step_m * std::ceil(heights.high / axes.step_m - kRounding);
+    axes.low_m = axes.step_m * std::floor(heights.low_m / axes.step_m + kRounding);
+    axes.high_m = axes.step_m * std::ceil(heights.high_m / axes.step_m - kRounding);
     if (axes.high_m <= axes.low_m) axes.high_m = axes.low_m + axes.step_m;
-    axes.step_s = step_at_least(std::max(motion.duration - axes.first_s, 1e-9) / most_lines_s);
+    axes.step_s = step_at_least(std::max(motion.duration - axes.first_s, least_span_s(motion)) /
+                                most_lines_s);
     return axes;
 }
 
@@ -107,6 +100,11 @@ OverlayPlot::OverlayPlot(const Scene& scene, const Motion& motion, int width_px,
     for (const double height : {rough.low_m, rough.high_m})
         widest = std::max(widest, font_.lay_out(number_text(height, rough.step_m)).width_px);
     left_px_ = std::round(widest + 1.1 * size);
+    constexpr double kLeastAxis = 2;  // letters
+    if (std::min(right_px_ - left_px_, bottom_px_ - top_px_) < kLeastAxis * size) {
+        rect_ = {};
+        return;
+    }
     const double number_s =
         font_.lay_out(number_text(motion.duration, 0.1 * rough.step_s)).width_px + 2.0 * size;
     const PlotAxes axes =
@@ -114,7 +112,8 @@ OverlayPlot::OverlayPlot(const Scene& scene, const Motion& motion, int width_px,
                          std::max(1.0, (bottom_px_ - top_px_) / (2.6 * size)));
     scale_.left_s = axes.first_s;
     scale_.bottom_m = axes.low_m;
-    scale_.px_per_s = (right_px_ - left_px_) / std::max(motion.duration - axes.first_s, 1e-9);
+    scale_.px_per_s =
+        (right_px_ - left_px_) / std::max(motion.duration - axes.first_s, least_span_s(motion));
     scale_.px_per_m = (bottom_px_ - top_px_) / (axes.high_m - axes.low_m);
     scale_.origin_px = Vec2(left_px_, bottom_px_);
     for (const int ball : scene.overlay.plot->balls) {

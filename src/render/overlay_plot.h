@@ -30,7 +30,8 @@ PlotAxes choose_plot_axes(const Scene& scene, const Motion& motion, double most_
 /// The picture at t is the same whatever was drawn before.
 class OverlayPlot {
   public:
-    /// `scene` and `motion` must outlive it. Stays clear of what is `taken`.
+    /// `scene` and `motion` must outlive it. Stays clear of what is `taken`. Without room for its
+    /// axes its rect() is empty, and it must not be drawn.
     OverlayPlot(const Scene& scene, const Motion& motion, int width_px, int height_px,
                 const std::vector<OverlayPainter::Rect>& taken, const Palette& palette);
 

@@ -67,7 +67,7 @@ OverlayTrails::OverlayTrails(const Scene& scene, const Motion& motion, const Vie
 void OverlayTrails::start_over() {
     lines_.clear();
     for (const Trajectory& ball : motion_.balls)
-        lines_.push_back({TrailCurve(ball, view_, motion_.duration), {}});
+        lines_.push_back({TrailCurve(ball, view_, motion_.duration, seconds_), {}});
 }
 
 void OverlayTrails::view_has_changed() {
@@ -104,8 +104,9 @@ void OverlayTrails::extend(std::size_t i, double t) {
 
 void OverlayTrails::draw_fading(std::size_t i, double t) {
     Line& line = lines_[i];
-    while (const auto corner = line.curve.next(t)) line.corners.push_back(*corner);
     const double begin = t - seconds_;
+    line.curve.skip_to(begin);
+    while (const auto corner = line.curve.next(t)) line.corners.push_back(*corner);
     while (line.corners.size() > 1 && line.corners[1].time <= begin) line.corners.pop_front();
     if (line.corners.empty()) return;
     TrailPoint from = line.corners.front();

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
+#include "render/height_range.h"
 
 namespace carom {
 
@@ -35,9 +37,43 @@ TrailPoint PlotCurve::at(double t) const {
     return {t, scale_.px(t, trajectory_->at(t).position.z() - below_m_), true};
 }
 
+std::optional<double> PlotCurve::end_of_crowded(std::size_t piece) const {
+    constexpr double kColumnPx = 0.5;
+    constexpr std::size_t kMany = 16;  // pieces; each may have corners of its own
+    const auto& pieces = trajectory_->pieces();
+    if (pieces.size() - piece <= kMany) return std::nullopt;
+    const double start_px = (pieces[piece].start - scale_.left_s) * scale_.px_per_s;
+    if (!(start_px >= 0)) return std::nullopt;
+    const double column = std::floor(start_px / kColumnPx);
+    const double end = scale_.left_s + (column + 1) * kColumnPx / scale_.px_per_s;
+    if (pieces[piece + kMany].start >= end) return std::nullopt;
+    return end;
+}
+
+/// All pieces that start before `end`: one corner, the other one waits.
+TrailPoint PlotCurve::take_crowded(double end) {
+    const auto& pieces = trajectory_->pieces();
+    const double time = pieces[piece_].start;
+    HeightRange heights;
+    for (; piece_ < pieces.size() && pieces[piece_].start < end; ++piece_)
+        heights.add(pieces[piece_], pieces[piece_].start, end_of_piece(piece_));
+    if (piece_ < pieces.size()) steps_ = steps_of_piece(piece_);
+    TrailPoint first{time, scale_.px(time, heights.low_m - below_m_), true};
+    TrailPoint second{time, scale_.px(time, heights.high_m - below_m_), true};
+    if (last_ && (*last_ - second.px).norm() < (*last_ - first.px).norm()) std::swap(first, second);
+    last_ = second.px;
+    waiting_ = second;
+    return first;
+}
+
 std::optional<TrailPoint> PlotCurve::next(double limit) {
+    if (waiting_) return std::exchange(waiting_, std::nullopt);
     const auto& pieces = trajectory_->pieces();
     while (piece_ < pieces.size()) {
+        if (const auto end = step_ == 0 ? end_of_crowded(piece_) : std::nullopt) {
+            if (std::min(*end, duration_) > limit) return std::nullopt;
+            return take_crowded(*end);
+        }
         const double start = pieces[piece_].start, end = end_of_piece(piece_);
         const double share = static_cast<double>(step_) / static_cast<double>(steps_);
         const double time = std::max(start + (end - start) * share, scale_.left_s);

@@ -20,7 +20,9 @@ struct PlotScale {
 };
 
 /// Hands out corners in order of time: every start of a piece, so that impacts stay sharp, and
-/// between them as many as keep the chord within TrailCurve::kChordError of the exact curve.
+/// between them as many as keep the chord within TrailCurve::kChordError of the exact curve. Where
+/// pieces are many in half a pixel, their lowest and their highest point stand for all: corners
+/// follow from the plot's width, however long the motion is.
 class PlotCurve {
   public:
     /// `trajectory` must outlive it. `below_m` is taken from the centre's height: the radius.
@@ -32,6 +34,9 @@ class PlotCurve {
     TrailPoint at(double t) const;
 
   private:
+    /// The half pixel in which a piece starts, by its end, if there are many in it.
+    std::optional<double> end_of_crowded(std::size_t piece) const;
+    TrailPoint take_crowded(double end);
     double end_of_piece(std::size_t piece) const;
     std::size_t steps_of_piece(std::size_t piece) const;
 
@@ -43,6 +48,7 @@ class PlotCurve {
     std::size_t step_ = 0;
     std::size_t steps_ = 1;  ///< of the current piece
     std::optional<Vec2> last_;
+    std::optional<TrailPoint> waiting_;  ///< the second corner of a half pixel
 };
 
 }  // namespace carom

@@ -1,13 +1,17 @@
 #include "render/static_drawing.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "render/driver_clock.h"
+#include "render/plane_tiles.h"
 
 namespace carom {
 
 namespace {
+
+constexpr const char* kManyPlanes = "MANY_PLANES";  // they are listed
 
 /// Kinds of bodies, as bits.
 constexpr unsigned kBoxes = 1, kSpheres = 2, kCapsules = 4;
@@ -30,6 +34,7 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
                                      const StaticKind& kind, unsigned bodies) {
     std::vector<std::string> defines = view_defines(view);
     if (table.planes > 0) defines.push_back("PLANES");
+    if (table.planes > kFewPlanes) defines.push_back(kManyPlanes);
     if ((bodies & kBoxes) != 0) defines.push_back("BOXES");
     if ((bodies & kSpheres) != 0) defines.push_back("SPHERES");
     if ((bodies & kCapsules) != 0) defines.push_back("CAPSULES");
@@ -51,10 +56,13 @@ GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
                        const StaticKind& kind) {
     GlProgram::Sources sources;
     sources.name = "static picture";
-    sources.vertex = assemble_shader({}, {"static_vertex"});
+    std::vector<std::string> vertex_defines;
+    if (std::find(defines.begin(), defines.end(), kManyPlanes) != defines.end())
+        vertex_defines.push_back(kManyPlanes);
+    sources.vertex = assemble_shader(vertex_defines, {"static_vertex"});
     sources.fragment =
         assemble_shader(defines, {"surfaces", "surface_patterns", "static_fragment"});
-    sources.attributes = {"a_rectangle", "a_seen", "a_shading"};
+    sources.attributes = {"a_rectangle", "a_seen", "a_shading", "a_planes"};
     sources.outputs = {"out_color", "out_facts"};  // as StaticPicture::targets() has them
     if (kind.occludes) sources.outputs.push_back("out_front");
     if (kind.mirrors) sources.outputs.push_back("out_mirror");

@@ -7,10 +7,41 @@
 
 namespace carom {
 
-TrailCurve::TrailCurve(const Trajectory& trajectory, const View& view, double duration)
-    : trajectory_(&trajectory), view_(&view), duration_(duration) {
+namespace {
+
+/// So that about kManyPieces are shown at once.
+std::size_t stride_for(const Trajectory& trajectory, double duration, double shown_s) {
+    if (!(duration > 0)) return 1;
+    const double shown =
+        static_cast<double>(trajectory.pieces().size()) * std::min(1.0, shown_s / duration);
+    return static_cast<std::size_t>(shown) / TrailCurve::kManyPieces + 1;
+}
+
+}  // namespace
+
+TrailCurve::TrailCurve(const Trajectory& trajectory, const View& view, double duration,
+                       double shown_s)
+    : trajectory_(&trajectory),
+      view_(&view),
+      duration_(duration),
+      stride_(stride_for(trajectory, duration, shown_s)) {
     CAROM_CHECK(trajectory.pieces().size(), >, 0u);
     steps_ = steps_of_piece(0);
+}
+
+/// Short pieces, as steps are, cost no more than one corner and make up a path together.
+bool TrailCurve::is_left_out() const {
+    return stride_ > 1 && step_ == 0 && steps_ > 1 && piece_ % stride_ != 0;
+}
+
+void TrailCurve::skip_to(double t) {
+    const std::size_t piece = trajectory_->piece_index(t);
+    if (piece < piece_ + kManyPieces) return;
+    piece_ = piece;
+    step_ = 0;
+    steps_ = steps_of_piece(piece_);
+    last_.reset();
+    pen_up_ = false;
 }
 
 double TrailCurve::end_of_piece(std::size_t piece) const {
@@ -58,6 +89,16 @@ std::optional<TrailPoint> TrailCurve::next(double limit) {
         const double time =
             start + (end - start) * static_cast<double>(step_) / static_cast<double>(steps_);
         if (time > limit) return std::nullopt;
+        if (is_left_out()) {
+            if (++piece_ < pieces.size()) steps_ = steps_of_piece(piece_);
+            if (pen_up_ || !last_) continue;
+            pen_up_ = true;
+            return last_ = at(time);  // the end of what is handed out
+        }
+        if (pen_up_) {
+            pen_up_ = false;
+            return last_ = TrailPoint{time, Vec2(0, 0), false};
+        }
         if (++step_ >= steps_) {
             step_ = 0;
             if (++piece_ < pieces.size()) steps_ = steps_of_piece(piece_);

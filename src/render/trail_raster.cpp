@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
-
 namespace carom {
 
 namespace {
 
 using Rect = OverlayPainter::Rect;
+
+constexpr std::size_t kMostNumbers = std::numeric_limits<std::uint16_t>::max();
 
 Rect joined(const Rect& a, const Rect& b) {
     if (a.empty()) return b;
@@ -24,10 +24,9 @@ Rect joined(const Rect& a, const Rect& b) {
 
 TrailRaster::TrailRaster(int width_px, int height_px, std::vector<Ink> inks)
     : inks_(std::move(inks)),
+      lines_per_number_(inks_.size() / kMostNumbers + 1),
       cells_(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
-      picture_(width_px, height_px) {
-    CAROM_CHECK(inks_.size(), <, std::numeric_limits<std::uint16_t>::max());
-}
+      picture_(width_px, height_px) {}
 
 bool TrailRaster::raise(Cell& cell, std::uint16_t line, std::uint8_t opacity) {
     if (opacity == 0) return false;
@@ -63,7 +62,7 @@ void TrailRaster::blend(std::size_t index) {
     const std::size_t below = cell.line[0] > cell.line[1] ? 0 : 1;
     for (const std::size_t i : {below, 1 - below}) {
         if (cell.line[i] == 0) continue;
-        const Ink& ink = inks_[cell.line[i] - 1u];
+        const Ink& ink = inks_[(cell.line[i] - 1u) * lines_per_number_];
         const double opacity = cell.opacity[i] / 255.0;
         b = ink.b * opacity + b * (1 - opacity);
         g = ink.g * opacity + g * (1 - opacity);
@@ -92,7 +91,8 @@ void TrailRaster::draw(const Segment& s, bool for_good) {
     const Vec2 along = s.to - s.from;
     const double length_2 = along.squaredNorm();
     const double outer = s.half_width + 0.5;
-    const auto line = static_cast<std::uint16_t>(s.line + 1);
+    const auto line =
+        static_cast<std::uint16_t>(static_cast<std::size_t>(s.line) / lines_per_number_ + 1);
     for (int y = ys.first; y < ys.last; ++y) {
         for (int x = xs.first; x < xs.last; ++x) {
             // Distance of the pixel's centre from the segment, and where along it.

@@ -17,7 +17,8 @@ namespace carom {
 /// are maxima, so the picture depends on what was drawn and not on the order.
 class TrailRaster {
   public:
-    /// `inks` are the lines' colours; line i has colour i.
+    /// `inks` are the lines' colours; line i has colour i. Of more than 65,534 lines, neighbours
+    /// share a number, and the colour of the first of them.
     TrailRaster(int width_px, int height_px, std::vector<Ink> inks);
 
     struct Segment {
@@ -52,6 +53,7 @@ class TrailRaster {
     void blend(std::size_t index);
 
     std::vector<Ink> inks_;
+    std::size_t lines_per_number_;
     std::vector<Cell> cells_;
     std::vector<Saved> saved_;
     Image picture_;

@@ -2,6 +2,7 @@
 
 import fractions
 import json
+import random
 import resource
 import signal
 import subprocess
@@ -110,6 +111,75 @@ class WithoutEnd(ProgramTest):
         self.assertIn("and more", result.stderr)
         print(f"{spent:.2f} CPU s for {count} materials and {len(pairs.splitlines())} pairs (at most 2)")
         self.assertLess(spent, 2)
+
+
+EVERYTHING = """\
+title: a ball and another one
+overlay: {ruler: true, clock: true, trail: true, labels: true, title: true, caption: with everything, peaks: true,
+          velocity: true, plot: true}
+"""
+
+
+class SmallPictures(ProgramTest):
+    def test_what_has_no_room_is_left_out(self):
+        scene = self.write("full.yaml", SMALL_SCENE + EVERYTHING)
+        stats = self.folder / "stats.json"
+        other = ["--against-set", "balls.a.radius=0.11"]
+        for size in ("16x16", "16x64", "64x16", "18x30", "48x48", "200x16"):
+            for words in ([], other, other + ["--against-view", "side"]):
+                picture = self.folder / f"{size}{len(words)}.png"
+                result = run("still", scene, "--time", 0.4, "-o", picture, "--size", size, "--stats", stats, "-y",
+                             *words)
+                self.assert_exit(0, result)
+                self.assertTrue(picture.exists())
+                effects = json.loads(stats.read_text())["effects"]
+                for name in ("plot",) if size == "48x48" else ("plot", "title"):
+                    self.assertEqual({"on": False, "why": "the picture has no room for it"}, effects[name],
+                                     (size, words))
+        self.assert_exit(0, run("still", scene, "--time", 0.4, "-o", self.folder / "large.png", "--stats", stats,
+                                "-y", "--size", "1280x720"))
+        effects = json.loads(stats.read_text())["effects"]
+        for name in ("title", "plot", "clock", "ruler", "caption"):
+            self.assertTrue(effects[name]["on"], name)
+
+
+class ManyThings(ProgramTest):
+    """Generous times: what is linear takes a small part of them, what is not takes many times as long."""
+
+    def still(self, text, seconds, *words, time=0):
+        scene = self.write("many.yaml", "carom: 1\n" + text)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assert_exit(0, run("still", scene, "--time", time, "-o", self.folder / "many.png", "-y", *words))
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        print(f"{self.id().split('.')[-1]}: {spent:.2f} CPU s (at most {seconds})")
+        self.assertLess(spent, seconds)
+
+    def test_labels_of_thousands_of_balls(self):
+        self.still("simulation: {duration: 0.1, gravity: [0, 0, 0]}\n"
+                   "balls: [{name: a, radius: 0.1, position: [0, 0, 1], repeat: {count: [40, 20, 20], spacing: 0.3}}]\n"
+                   "overlay: {labels: true}\n", 15)
+
+    def test_thousands_of_planes(self):
+        numbers = random.Random(1)
+        planes = []
+        for i in range(4000):
+            normal = [numbers.gauss(0, 1) for _ in range(3)]
+            offset = -(1 + 0.3 * numbers.random()) * sum(x * x for x in normal) ** 0.5
+            planes.append(f"  - {{name: p{i}, plane: {{normal: {normal}, offset: {offset}}}}}")
+        self.still("simulation: {duration: 0.1}\nsurfaces:\n" + "\n".join(planes)
+                   + "\nballs: [{name: a, radius: 0.1, position: [0, 0, 0]}]\n", 20, "--size", "320x180")
+
+    def test_a_ruler_beside_a_ball_far_up(self):
+        for speed in ("0", "1e3", "1e9"):
+            self.still("simulation: {duration: 1e7, gravity: [0, 0, 0]}\n"
+                       f"balls: [{{name: a, radius: 0.1, position: [0, 0, 1e9], velocity: [0, 0, {speed}]}}]\n"
+                       "camera: {from: [0, -6, 1e9], to: [0, 0, 1e9], follow: a}\noverlay: {ruler: true}\n", 5, "--size", "320x180", time=1e7)
+
+    def test_a_plot_and_a_trail_of_very_many_hops(self):
+        self.still("simulation: {duration: 2e5}\nsurfaces: [{name: floor, plane: {}}]\n"
+                   "balls: [{name: a, radius: 0.1, position: [0, 0, 1.1]}]\n"
+                   "overlay: {plot: true, trail: true, peaks: true}\n", 15, "--size", "320x180", time=2e5)
 
 
 if __name__ == "__main__":

@@ -55,6 +55,48 @@ TEST(Plot, CurvesAreExact) {
     EXPECT_LT(worst, TrailCurve::kChordError + TrailCurve::kLeastStep);
 }
 
+// A hop of 0.9 s between 0 and 1 m, a million times: what is drawn follows from the plot's width.
+TEST(Plot, HopsWithoutNumberAreTheRangeThatTheyCover) {
+    constexpr int kHops = 1'000'000;
+    constexpr double kRadius = 0.1, kHop_s = 0.9, kGravity = 9.81, kWidthPx = 300;
+    Trajectory path;
+    path.reserve(kHops);
+    for (int i = 0; i < kHops; ++i) {
+        Piece hop;
+        hop.start = i * kHop_s;
+        hop.position = Vec3(0, 0, kRadius);
+        hop.velocity = Vec3(0, 0, 0.5 * kGravity * kHop_s);
+        hop.acceleration = Vec3(0, 0, -kGravity);
+        path.append(hop);
+    }
+    const double top = kGravity * kHop_s * kHop_s / 8;
+    PlotScale scale;
+    scale.px_per_s = kWidthPx / (kHops * kHop_s);
+    scale.px_per_m = 100;
+    PlotCurve curve(path, kRadius, scale, kHops * kHop_s);
+    int corners = 0, halves = 0;
+    double last_x = 0, lowest = HUGE_VAL, highest = -HUGE_VAL;
+    // Asked for half of it first, it hands out half of it.
+    for (const double limit : {0.5 * kHops * kHop_s, kHops * kHop_s}) {
+        while (const auto corner = curve.next(limit)) {
+            EXPECT_LE(corner->time, limit);
+            EXPECT_GE(corner->px.x(), last_x);
+            EXPECT_LT(corner->px.x() - last_x, 0.51);
+            last_x = corner->px.x();
+            lowest = std::min(lowest, -corner->px.y());
+            highest = std::max(highest, -corner->px.y());
+            ++corners;
+        }
+        if (halves == 0) halves = corners;
+    }
+    fmt::print("{} corners for {} hops (at most {})\n", corners, kHops, 4 * kWidthPx + 4);
+    EXPECT_LE(corners, 4 * kWidthPx + 4);
+    EXPECT_NEAR(halves, corners / 2, 4);
+    EXPECT_NEAR(lowest, 0, 1e-6);
+    EXPECT_NEAR(highest, top * scale.px_per_m, 1e-6);
+    EXPECT_GT(last_x, kWidthPx - 1);
+}
+
 TEST(Plot, AxesHoldTheMotionAndEndAtLines) {
     Sample sample = plotted(drop(1.8, 0.12, 4));
     PlotAxes axes = choose_plot_axes(sample.scene, sample.motion, 6, 5);

@@ -133,6 +133,46 @@ TEST(Trail, CornersFollowTheCurveAndKeepEveryImpact) {
     }
 }
 
+// A million hops: as many corners as some thousands have, each on the path; near the end of a short
+// trail none of them is left out.
+TEST(Trail, HopsWithoutNumberAreShownInPart) {
+    constexpr int kHops = 1'000'000;
+    constexpr double kRadius = 0.1, kHop_s = 0.9, kGravity = 9.81;
+    Sample sample = empty_floor(kHops * kHop_s);
+    add_ball(sample, "a", kRadius, {straight(0, Vec3(0, 0, kRadius), Vec3::Zero())});
+    Trajectory path;
+    path.reserve(kHops);
+    for (int i = 0; i < kHops; ++i) {
+        Piece hop = straight(i * kHop_s, Vec3(0, 0, kRadius), Vec3(0, 0, 0.5 * kGravity * kHop_s));
+        hop.acceleration = Vec3(0, 0, -kGravity);
+        path.append(hop);
+    }
+    const View view(pinhole({0, -5, 0.5}, {0, 0, 0.5}, 30), 1280, 720);
+    const double end = sample.motion.duration;
+    const auto corners_of = [&](TrailCurve curve, double from, int& shown) {
+        int corners = 0;
+        curve.skip_to(from);
+        while (const auto corner = curve.next(end)) {
+            ++corners;
+            shown += corner->visible ? 1 : 0;
+            if (!corner->visible) continue;
+            const View::Projected p = view.project(path.at(corner->time).position);
+            EXPECT_NEAR(corner->px.y(), p.y_px, 1e-6);
+        }
+        return corners;
+    };
+    int shown = 0;
+    const int all = corners_of(TrailCurve(path, view, end, 1e300), 0, shown);
+    fmt::print("{} corners, {} of them visible, for {} hops\n", all, shown, kHops);
+    EXPECT_GT(shown, static_cast<int>(10 * TrailCurve::kManyPieces));
+    EXPECT_LT(all, static_cast<int>(200 * TrailCurve::kManyPieces));
+    int last = 0;
+    const int few = corners_of(TrailCurve(path, view, end, 10), end - 10, last);
+    EXPECT_EQ(few, last);
+    EXPECT_LT(few, 2000);
+    EXPECT_GT(few, 100);
+}
+
 TEST(Trail, ManyPiecesAtOnePlaceMakeFewCorners) {
     // A ball at rest, stepped 40,000 times.
     Sample sample = empty_floor(10);

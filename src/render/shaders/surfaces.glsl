@@ -12,6 +12,9 @@ uniform ivec4 u_counts;  // planes, boxes, spheres, capsules
 uniform samplerBuffer u_listed;
 flat in ivec4 v_seen;     // bodies that rays may meet
 flat in ivec4 v_shading;  // bodies that may take light
+#ifdef MANY_PLANES
+flat in ivec4 v_planes;   // planes that rays may meet, first and end; and those that make crevices
+#endif
 
 const float kFar = 1e30;
 const int kSection = -2;  // and below: the cut through plane kSection - item
@@ -71,19 +74,30 @@ void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
 
 #ifdef PLANES
 void meet_planes(inout Hit hit, vec3 d) {
-    int i = 0;
+#ifdef MANY_PLANES
+    int entry = v_planes.x, end = v_planes.y;
+#else
+    int entry = 0, end = u_counts.x;
+#endif
     do {
+#ifdef MANY_PLANES
+        bool here = entry < end;
+        int i = listed(entry);
+#else
+        const bool here = true;
+        int i = entry;
+#endif
         vec4 plane = surface(i, 0);
         float toward = dot(plane.xyz, d), under = plane.w - dot(plane.xyz, g_start);
-        if (toward < -1e-7) take(hit, under / toward, i, plane.xyz, 0, d);
+        if (here && toward < -1e-7) take(hit, under / toward, i, plane.xyz, 0, d);
 #ifdef ORTHOGRAPHIC
         // Edge-on: the ground below the plane is cut open, as far away as the sky.
-        if (abs(toward) <= 1e-7 && hit.item < 0) {
+        if (here && abs(toward) <= 1e-7 && hit.item < 0) {
             if (abs(under) < kEdgeReach * u_pixel) hit.edge = true;
             if (under > 0.0) hit.item = kSection - i;
         }
 #endif
-    } while (++i < u_counts.x);
+    } while (++entry < end);
 }
 #endif
 
@@ -246,12 +260,21 @@ vec2 open_to_light(vec3 p, vec3 n, float lift, vec3 px, vec3 py, int own, float 
     vec3 away = vec3(kFar);  // of the nearest other surface, at each height
     float visible = 1.0;
 #ifdef PLANES
-    int plane_item = 0;
+#ifdef MANY_PLANES
+    int plane_entry = v_planes.z, plane_end = v_planes.w;
+#else
+    int plane_entry = 0, plane_end = u_counts.x;
+#endif
     do {
+#ifdef MANY_PLANES
+        int plane_item = plane_entry < plane_end ? listed(plane_entry) : own;
+#else
+        int plane_item = plane_entry;
+#endif
         vec4 plane = surface(plane_item, 0);
         vec3 above = dot(plane.xyz, p) - plane.w + dot(plane.xyz, n) * heights;
         if (plane_item != own) away = min(away, above);
-    } while (++plane_item < u_counts.x);
+    } while (++plane_entry < plane_end);
 #endif
 #ifdef BOXES
     vec3 side = normalize(abs(u_light.x) < 0.7 ? cross(u_light, vec3(1, 0, 0))
