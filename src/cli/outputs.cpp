@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <map>
 
 #include "cli/standard_output.h"
 #include "core/failure.h"
+#include "media/film_format.h"
 #include "media/output_file.h"
 #include "media/output_folder.h"
 #include "media/threaded_sink.h"
@@ -22,8 +22,6 @@ namespace {
 /// would only cost memory.
 constexpr int kWaitingFrames = 1;
 
-constexpr std::array kFilmExtensions = {".mp4", ".mkv"};
-
 struct Quality {
     int crf;
     const char* preset;
@@ -35,16 +33,14 @@ Quality quality_named(const std::string& name) {
     return kQualities.at(name);
 }
 
-bool ends_as_film(const std::string& extension) {
-    return std::find(kFilmExtensions.begin(), kFilmExtensions.end(), extension) !=
-           kFilmExtensions.end();
+/// Whose extension says the format.
+std::string name_of(const OutputRequest& output) {
+    return output.path == "-" ? "-." + output.format : output.path;
 }
 
 /// With its dot, in small letters.
 std::string extension_of(const OutputRequest& output) {
-    std::string extension = output.path == "-"
-                                ? "." + output.format
-                                : std::filesystem::path(output.path).extension().string();
+    std::string extension = std::filesystem::path(name_of(output)).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return extension;
@@ -52,7 +48,7 @@ std::string extension_of(const OutputRequest& output) {
 
 void check_name(const OutputRequest& output) {
     const std::string extension = extension_of(output);
-    if (ends_as_film(extension) || output.path == "-") return;
+    if (output.is_film() || output.path == "-") return;
     // A pattern that is none is refused here, with the right spelling.
     if (output.path.find('%') != std::string::npos) {
         sequence_folder(output.path);
@@ -65,9 +61,9 @@ void check_name(const OutputRequest& output) {
             ? "frames need a number in their name, e.g. frame_%05d.png, or a folder; "
               "for one picture use `carom still`"
             : fmt::format(
-                  "films end in .mp4 or .mkv; frames go to a name such as frame_%05d.png "
+                  "films end in {}; frames go to a name such as frame_%05d.png "
                   "or to a folder (which ends in / if there is a dot in its name: {}/)",
-                  output.path);
+                  film_extensions(), output.path);
     throw Failure(FailureKind::kInput, fmt::format("-o {}: {}", output.path, right));
 }
 
@@ -98,7 +94,7 @@ void require_new_frames(const std::string& pattern, const FrameRanges& frames) {
 
 }  // namespace
 
-bool OutputRequest::is_film() const { return ends_as_film(extension_of(*this)); }
+bool OutputRequest::is_film() const { return find_film_format(name_of(*this)) != nullptr; }
 
 void check_output_names(const std::vector<OutputRequest>& outputs,
                         const std::vector<NamedFile>& other_outputs,
@@ -138,7 +134,7 @@ void prepare_folders(const std::vector<OutputRequest>& outputs) {
 void check_transparency(const std::vector<OutputRequest>& outputs, const Scene& scene) {
     if (scene.background != Background::kTransparent) return;
     for (const OutputRequest& output : outputs)
-        if (output.is_film())
+        if (output.is_film() && !film_format(name_of(output)).alpha)
             throw Failure(FailureKind::kInput,
                           fmt::format("-o {}: H.264 has no transparency; with 'background: "
                                       "transparent' frames go to PNGs, such as -o frames/ or "
@@ -168,9 +164,7 @@ FilmOptions film_options(const Scene& scene, const EncodingOptions& encoding) {
 void check_films(const std::vector<OutputRequest>& outputs, const Scene& scene,
                  const EncodingOptions& encoding) {
     for (const OutputRequest& output : outputs)
-        if (output.is_film())
-            require_film(output.path == "-" ? "-." + output.format : output.path,
-                         film_options(scene, encoding));
+        if (output.is_film()) require_film(name_of(output), film_options(scene, encoding));
 }
 
 std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,

@@ -25,7 +25,7 @@ struct EncodingOptions {
 /// One `-o`.
 struct OutputRequest {
     std::string path;    ///< "-" is standard output
-    std::string format;  ///< for "-" only: mp4, mkv or png
+    std::string format;  ///< for "-" only: png, or the extension of a film
 
     bool is_film() const;
 };

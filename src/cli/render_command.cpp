@@ -1,5 +1,6 @@
 // carom render: from a scene to a film or to PNG frames.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@
 #include "cli/stats.h"
 #include "core/failure.h"
 #include "core/readable.h"
+#include "media/film_format.h"
 #include "media/output_file.h"
 #include "render/painter.h"
 
@@ -231,8 +233,11 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
 }  // namespace
 
 void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
-    auto* command = app.add_subcommand("render", "Film a scene: MP4, Matroska, or PNG frames");
+    auto* command = app.add_subcommand("render", "Film a scene, or draw its frames as PNGs");
     auto options = std::make_shared<RenderOptions>();
+    std::vector<std::string> formats;  // of standard output
+    for (const FilmFormat& format : film_formats()) formats.emplace_back(format.extension);
+    formats.emplace_back("png");
     command->footer(
         "  carom render scene.yaml -o film.mp4\n"
         "  carom render scene.yaml -o frame_%05d.png --frames 0-99 --size 640x360\n"
@@ -243,16 +248,17 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command
         ->add_option(
             "-o,--output", options->outputs,
-            "film.mp4, film.mkv, a name with %05d.png for PNG frames, a folder (with / at its "
-            "end if its name has a dot), or - for standard output (repeatable: all from the "
-            "same drawing)")
+            fmt::format("A film, whose name ends in {}, a name with %05d.png for PNG frames, a "
+                        "folder (with / at its end if its name has a dot), or - for standard "
+                        "output (repeatable: all from the same drawing)",
+                        film_extensions()))
         ->required()
         ->type_name("OUT")
         ->take_all()
         ->allow_extra_args(false);
     command->add_option("--format", options->format, "Format of -o -")
-        ->check(CLI::IsMember({"mp4", "mkv", "png"}))
-        ->type_name("mp4|mkv|png")
+        ->check(CLI::IsMember(formats))
+        ->type_name(fmt::format("{}", fmt::join(formats, "|")))
         ->capture_default_str();
     auto* frames = command
                        ->add_option("--frames", options->frames,

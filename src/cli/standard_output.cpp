@@ -11,6 +11,7 @@
 #include "cli/cpu_timer.h"
 #include "core/failure.h"
 #include "core/temporary_folder.h"
+#include "media/film_format.h"
 #include "media/png.h"
 #include "media/threaded_sink.h"
 
@@ -91,8 +92,8 @@ std::unique_ptr<FrameSink> make_png_stream() { return std::make_unique<PngStream
 
 std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
                                             int waiting_frames) {
-    if (format == "mkv")
-        return make_threaded_sink(make_film_pipe(STDOUT_FILENO, options), waiting_frames);
+    if (film_format("film." + format).streams)
+        return make_threaded_sink(make_film_pipe(STDOUT_FILENO, format, options), waiting_frames);
     return std::make_unique<FilmStream>(format, options, waiting_frames);
 }
 

@@ -2,19 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include "core/reader_gone.h"
 
 namespace carom {
 
 namespace {
-
-const char* format_name(FilmContainer container) {
-    return container == FilmContainer::kMp4 ? "mp4" : "matroska";
-}
 
 /// Ticks a second of which a whole number makes one frame: a multiple of the numerator of the frame
 /// rate. Fine enough that players which round to ticks of their own lose nothing.
@@ -43,20 +35,9 @@ class Options {
 
 }  // namespace
 
-FilmContainer film_container(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".mp4") return FilmContainer::kMp4;
-    if (extension == ".mkv") return FilmContainer::kMatroska;
-    throw Failure(FailureKind::kInput,
-                  fmt::format("cannot write a film '{}': its name must end in .mp4 or .mkv", path));
-}
-
-bool FilmMuxer::wants_global_header(FilmContainer container) {
-    const AVOutputFormat* format =
-        libav().av_guess_format(format_name(container), nullptr, nullptr);
-    return format != nullptr && (format->flags & AVFMT_GLOBALHEADER) != 0;
+bool FilmMuxer::wants_global_header(const FilmFormat& format) {
+    const AVOutputFormat* muxer = libav().av_guess_format(format.container, nullptr, nullptr);
+    return muxer != nullptr && (muxer->flags & AVFMT_GLOBALHEADER) != 0;
 }
 
 void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
@@ -66,13 +47,12 @@ void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
 
 std::string pipe_url(int descriptor) { return fmt::format("pipe:{}", descriptor); }
 
-FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, FilmContainer container,
+FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const FilmFormat& format,
                      const AVCodecContext& encoder, const std::string& title)
     : path_(path), encoder_time_base_(encoder.time_base) {
     const LibavMessages messages;
     AVFormatContext* context = nullptr;
-    check(libav().avformat_alloc_output_context2(&context, nullptr, format_name(container),
-                                                 url.c_str()),
+    check(libav().avformat_alloc_output_context2(&context, nullptr, format.container, url.c_str()),
           "make a container for", messages);
     context_.reset(context);
     context->flags |= AVFMT_FLAG_BITEXACT;
@@ -88,13 +68,13 @@ FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, FilmContai
         throw std::bad_alloc();
 
     check(libav().avio_open(&context->pb, context->url, AVIO_FLAG_WRITE), "write", messages);
-    write_header(container);
+    write_header(format);
 }
 
-void FilmMuxer::write_header(FilmContainer container) {
+void FilmMuxer::write_header(const FilmFormat& format) {
     const LibavMessages messages;
     Options options;
-    if (container == FilmContainer::kMp4) {
+    if (format.times == FilmTimes::kExact) {
         const std::string scale = std::to_string(exact_time_scale(encoder_time_base_));
         options.set("movflags", "+faststart");
         options.set("video_track_timescale", scale);

@@ -1,6 +1,7 @@
 // The film as a sink of frames: encoder, container, and a name that appears at the end.
 #include <fmt/format.h>
 
+#include "media/film_format.h"
 #include "media/film_muxer.h"
 #include "media/frame_sink.h"
 #include "media/output_file.h"
@@ -14,9 +15,9 @@ namespace {
 class FilmEncoding {
   public:
     /// `url` is where the container goes; `path` is for messages.
-    FilmEncoding(const std::string& url, const std::string& path, FilmContainer container,
+    FilmEncoding(const std::string& url, const std::string& path, const FilmFormat& format,
                  VideoEncoder& encoder, const FilmOptions& options)
-        : encoder_(encoder), muxer_(url, path, container, encoder.context(), options.title) {}
+        : encoder_(encoder), muxer_(url, path, format, encoder.context(), options.title) {}
 
     void write(const Image& frame) {
         encoder_.encode(frame, [this](AVPacket& packet) { mux(packet); });
@@ -46,10 +47,10 @@ class FilmEncoding {
 class FilmWriter final : public FrameSink {
   public:
     FilmWriter(const std::string& path, const FilmOptions& options)
-        : container_(film_container(path)),
-          encoder_(path, options, FilmMuxer::wants_global_header(container_)),
+        : format_(film_format(path)),
+          encoder_(path, options, FilmMuxer::wants_global_header(format_)),
           file_(path, options.existing),
-          film_(libav_url(file_.temporary_path()), path, container_, encoder_, options) {}
+          film_(libav_url(file_.temporary_path()), path, format_, encoder_, options) {}
 
     void write(std::int64_t, const Image& frame) override { film_.write(frame); }
 
@@ -67,7 +68,7 @@ class FilmWriter final : public FrameSink {
     SinkTimes times() const override { return film_.times(); }
 
   private:
-    FilmContainer container_;
+    const FilmFormat& format_;
     VideoEncoder encoder_;
     OutputFile file_;
     FilmEncoding film_;
@@ -75,9 +76,9 @@ class FilmWriter final : public FrameSink {
 
 class FilmPipe final : public FrameSink {
   public:
-    FilmPipe(int descriptor, const FilmOptions& options)
-        : encoder_(kName, options, FilmMuxer::wants_global_header(FilmContainer::kMatroska)),
-          film_(pipe_url(descriptor), kName, FilmContainer::kMatroska, encoder_, options) {}
+    FilmPipe(int descriptor, const FilmFormat& format, const FilmOptions& options)
+        : encoder_(kName, options, FilmMuxer::wants_global_header(format)),
+          film_(pipe_url(descriptor), kName, format, encoder_, options) {}
 
     void write(std::int64_t, const Image& frame) override { film_.write(frame); }
     void finish() override { film_.close(); }
@@ -97,19 +98,15 @@ class FilmPipe final : public FrameSink {
 
 void require_film(const std::string& path, const FilmOptions& options) {
     require_film_options(options);
-    const double rate = static_cast<double>(options.fps_numerator) / options.fps_denominator;
-    if (film_container(path) == FilmContainer::kMatroska && rate > kMostMatroskaRate)
-        throw Failure(
-            FailureKind::kInput,
-            fmt::format("'{}': Matroska counts milliseconds, and at {:.6g} frames/s "
-                        "several frames would have one time; write an .mp4, or at most {} "
-                        "frames/s",
-                        path, rate, kMostMatroskaRate));
+    require_time_stamps(film_format(path), path,
+                        static_cast<double>(options.fps_numerator) / options.fps_denominator);
 }
 
-std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const FilmOptions& options) {
-    require_film("standard output.mkv", options);
-    return std::make_unique<FilmPipe>(descriptor, options);
+std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const std::string& extension,
+                                          const FilmOptions& options) {
+    const std::string name = "standard output." + extension;
+    require_film(name, options);
+    return std::make_unique<FilmPipe>(descriptor, film_format(name), options);
 }
 
 std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options) {

@@ -48,14 +48,16 @@ struct FilmOptions {
     Existing existing = Existing::kReplace;  ///< what stands under the film's name
 };
 
-/// H.264 in MP4 (moov first) or Matroska, by the extension of `path`: yuv420p, BT.709 converted and
-/// tagged, High profile, constant rate with pts = frame index.
-/// Throws Failure(kRun) when libx264 is missing.
+/// A film of the kind that the extension of `path` names (media/film_format.h), of constant rate
+/// with pts = frame index. H.264: yuv420p, BT.709 converted and tagged, High profile.
+/// Throws Failure(kRun) when the encoder is missing.
 std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options);
 
-/// The same in Matroska into an open pipe, as the frames come: without a length in its header, and
-/// without an index. `descriptor` stays open. Throws ReaderGone when nobody reads any more.
-std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const FilmOptions& options);
+/// The same into an open pipe, as the frames come, in a format that streams: Matroska without a
+/// length in its header, and without an index. `descriptor` stays open. Throws ReaderGone when
+/// nobody reads any more.
+std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const std::string& extension,
+                                          const FilmOptions& options);
 
 /// Refuses what no film of this name can have, before any work: Failure(kInput) for an odd size, an
 /// unknown preset, or more frames a second than the container has time stamps for.
