@@ -7,6 +7,7 @@
 #include "core/check.h"
 #include "core/failure.h"
 #include "geometry/feature.h"
+#include "geometry/feature_side.h"
 #include "sim/exact/run.h"
 #include "sim/law/flat_contact.h"
 #include "sim/math/polynomial.h"
@@ -21,21 +22,30 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// its distance from the origin if that is larger: below it the hop drowns in the place's rounding.
 constexpr double kLastHop = 1e-12;
 
-/// Seconds until the contact point leaves the face that the ball is on.
-double seconds_on(const PlaneShape&, const Piece&, const Vec3&, double) { return kInfinity; }
-double seconds_on(const SphereShape&, const Piece&, const Vec3&, double) { return kInfinity; }
-double seconds_on(const CapsuleShape&, const Piece&, const Vec3&, double) { return kInfinity; }
-double seconds_on(const BoxShape& box, const Piece& piece, const Vec3& normal, double horizon) {
+/// Seconds until the contact point leaves the face that the ball is on. A ball that goes along a
+/// border has left when it is beyond the border's width.
+double seconds_on(const PlaneShape&, const Piece&, double, const Vec3&, double) {
+    return kInfinity;
+}
+double seconds_on(const SphereShape&, const Piece&, double, const Vec3&, double) {
+    return kInfinity;
+}
+double seconds_on(const CapsuleShape&, const Piece&, double, const Vec3&, double) {
+    return kInfinity;
+}
+double seconds_on(const BoxShape& box, const Piece& piece, double radius, const Vec3& normal,
+                  double horizon) {
     const Mat3 world_from_box = box.orientation.toRotationMatrix();
+    const double border = kBorder * (piece.position.cwiseAbs().maxCoeff() + radius);
     double earliest = kInfinity;
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 along = world_from_box.col(axis);
         if (std::abs(along.dot(normal)) > 0.5) continue;  // the face's own normal
         for (const double side : {-1.0, 1.0}) {
-            const Polynomial inside{
-                {0.5 * box.size[axis] - side * along.dot(piece.position - box.center),
-                 -side * along.dot(piece.velocity), -0.5 * side * along.dot(piece.acceleration), 0,
-                 0}};
+            double room = 0.5 * box.size[axis] - side * along.dot(piece.position - box.center);
+            if (room <= border) room += 2 * border;
+            const Polynomial inside{{room, -side * along.dot(piece.velocity),
+                                     -0.5 * side * along.dot(piece.acceleration), 0, 0}};
             const Roots out = downward_crossings(inside, horizon);
             if (out.count > 0) earliest = std::min(earliest, out.at[0]);
         }
@@ -43,9 +53,10 @@ double seconds_on(const BoxShape& box, const Piece& piece, const Vec3& normal, d
     return earliest;
 }
 
-double seconds_on_face(const Piece& piece, const SurfaceShape& shape, const Vec3& normal,
-                       double horizon) {
-    return std::visit([&](const auto& s) { return seconds_on(s, piece, normal, horizon); }, shape);
+double seconds_on_face(const Piece& piece, double radius, const SurfaceShape& shape,
+                       const Vec3& normal, double horizon) {
+    return std::visit([&](const auto& s) { return seconds_on(s, piece, radius, normal, horizon); },
+                      shape);
 }
 
 FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& contact) {
@@ -203,8 +214,8 @@ void ExactRun::begin_flat_contact(int ball, double now, const Contact& contact,
                      at_start);
     begin_piece(ball, now, at, motion->acceleration, motion->spin_rate);
 
-    const double on_face = seconds_on_face(b.piece, world_.surface(contact.other.index).shape,
-                                           contact.normal, end_ - now);
+    const double on_face = seconds_on_face(
+        b.piece, b.radius, world_.surface(contact.other.index).shape, contact.normal, end_ - now);
     b.leaves_at_end = on_face < motion->seconds;
     b.phase_end = now + std::min(on_face, motion->seconds);
 }

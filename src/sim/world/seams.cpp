@@ -49,11 +49,17 @@ double demand_of(const SingleContact& feature, const Vec3& x, const Vec3& v) {
     return -(moved - n.dot(moved) * n).squaredNorm() / distance;
 }
 
+/// The part of a vector along a surface; none where it is the rounding of the normal.
+Vec3 along_surface(const Vec3& vector, const Vec3& normal) {
+    const Vec3 part = tangential_part(vector, normal);
+    return part.norm() > kAlongBorder * vector.norm() ? part : Vec3(Vec3::Zero());
+}
+
 /// Where the motion leads to, as far away as a border may be off by rounding: a bump of that height
 /// is so long.
 Vec3 place_ahead(const ExactWorld& world, const Contact& c, const Vec3& x, const Vec3& v) {
     Vec3 way = v;
-    if (way.isZero(0)) way = tangential_part(world.scene.simulation.gravity, c.normal);
+    if (way.isZero(0)) way = along_surface(world.scene.simulation.gravity, c.normal);
     if (way.isZero(0)) return x;
     const double radius = world.ball(c.ball).radius;
     return x + 2 * std::sqrt(2 * radius * place_rounding(world, c, x)) * way.normalized();
@@ -108,7 +114,7 @@ bool holds_before(const ExactWorld& world, const Contact& a, const Contact& b, c
     const bool a_comes = velocities.linear.dot(a.normal) < -still;
     const bool b_comes = velocities.linear.dot(b.normal) < -still;
     if (a_comes != b_comes) return a_comes;
-    const Vec3 v = tangential_part(velocities.linear, a.normal);
+    const Vec3 v = along_surface(velocities.linear, a.normal);
     const Vec3 y = place_ahead(world, a, x, v);
     const SingleContact of_a = feature_at(world, a, y, v), of_b = feature_at(world, b, y, v);
     const double size = size_of_demands(world, a, v);
@@ -120,9 +126,23 @@ bool holds_before(const ExactWorld& world, const Contact& a, const Contact& b, c
     return a.other.index < b.other.index;
 }
 
+void lay_flat(const ExactWorld& world, Contact& c, const Vec3& x, const Velocities& velocities) {
+    const Vec3 v = along_surface(velocities.linear, c.normal);
+    const SingleContact feature = feature_at(world, c, place_ahead(world, c, x, v), v);
+    if (!is_flat(feature)) return;
+    const double radius = world.ball(c.ball).radius;
+    const Vec3 over = feature.origin + feature.distance * feature.normal_at(x);
+    const Vec3 normal = nearest_on(world.surface(c.other.index).shape, over, radius).normal;
+    if (normal == c.normal) return;
+    c.normal = normal;
+    c.depth = feature.distance - normal.dot(x - feature.origin);
+    c.point = x - (radius - c.depth) * normal;
+    c.arm = -radius * normal;
+}
+
 std::optional<SurfaceContact> goes_on_with(const ExactWorld& world, const Contact& held,
                                            const Vec3& x, const Velocities& velocities) {
-    const Vec3 v = tangential_part(velocities.linear, held.normal);
+    const Vec3 v = along_surface(velocities.linear, held.normal);
     const Vec3 y = place_ahead(world, held, x, v);
     const double size = size_of_demands(world, held, v);
     SingleContact best = feature_at(world, held, y, v);
@@ -158,23 +178,25 @@ bool keeps_out(const ExactWorld& world, int ball, int surface, double from, doub
 
 void add_borders_of_others(const ExactWorld& world, const Contact& held, const ContactState& at,
                            SingleContact& feature) {
-    const double border = kBorder * (at.x.cwiseAbs().maxCoeff() + world.ball(held.ball).radius);
+    // On the surface that holds it: a step of ODE may have left a gap.
+    const Vec3 x = at.x + held.depth * held.normal;
+    const double border = kBorder * (x.cwiseAbs().maxCoeff() + world.ball(held.ball).radius);
     const auto look = [&](int s) {
         if (s == held.other.index) return;
-        const Contact c = world.surface_contact(held.ball, s, at.x);
-        if (!is_in_reach(world, c, at.x) || !same_place(world, held, c)) return;
-        const SingleContact other = feature_at(world, c, at.x, at.v);
+        const Contact c = world.surface_contact(held.ball, s, x);
+        if (!is_in_reach(world, c, x) || !same_place(world, held, c)) return;
+        const SingleContact other = feature_at(world, c, x, at.v);
         for (int i = 0; i < other.border_count && feature.border_count < kMostBorders; ++i) {
             const FeatureBorder& limit = other.borders[static_cast<std::size_t>(i)];
             // Where the ball is on that border already, it is a seam between the two.
-            if (limit.margin(at.x) > border) feature.add_border(limit.direction, limit.offset);
+            if (limit.margin(x) > border) feature.add_border(limit.direction, limit.offset);
         }
     };
-    world.for_each_surface_near(held.ball, at.x, world.reach(held.ball), look);
+    world.for_each_surface_near(held.ball, x, world.reach(held.ball), look);
     // A ball that goes along a border is not beyond it by what rounding makes of its place.
     for (int i = 0; i < feature.border_count; ++i) {
         FeatureBorder& limit = feature.borders[static_cast<std::size_t>(i)];
-        if (limit.margin(at.x) <= border) limit.offset -= 2 * border;
+        if (limit.margin(x) <= border) limit.offset -= 2 * border;
     }
 }
 

@@ -56,6 +56,11 @@ void add_borders_of_others(const ExactWorld& world, const Contact& held, const C
 bool holds_before(const ExactWorld& world, const Contact& a, const Contact& b, const Vec3& x,
                   const Velocities& velocities);
 
+/// Gives a contact that holds a ball by a face the face's own normal: over a seam, rounding may put
+/// the ball beyond the borders of both sides.
+void lay_flat(const ExactWorld& world, Contact& contact, const Vec3& x,
+              const Velocities& velocities);
+
 template <class Dropped>
 void merge_places(const ExactWorld& world, const Vec3& x, const Velocities& velocities,
                   std::vector<Contact>& contacts, std::size_t first, Dropped&& dropped) {
@@ -68,6 +73,7 @@ void merge_places(const ExactWorld& world, const Vec3& x, const Velocities& velo
             }
             if (holds_before(world, contacts[j], contacts[i], x, velocities))
                 std::swap(contacts[i], contacts[j]);
+            lay_flat(world, contacts[i], x, velocities);
             dropped(contacts[j], contacts[i]);
             contacts.erase(contacts.begin() + static_cast<std::ptrdiff_t>(j));
         }
