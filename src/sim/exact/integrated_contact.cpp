@@ -116,7 +116,7 @@ SingleContactForces ExactRun::choose_mode(IntegratedPhase& phase, double toleran
     if (phase.contact.friction == 0) return forces(ContactMode::kSmooth);
     const SingleContactForces sliding = forces(ContactMode::kSliding);
     if (sliding.slip.norm() > tolerance) return sliding;
-    project(phase.contact, ContactMode::kRolling, phase.state);
+    end_slip(phase.contact, phase.state);
     const SingleContactForces rolling = forces(ContactMode::kRolling);
     return grip_left(phase.contact, rolling) >= 0 ? rolling : forces(ContactMode::kIncipient);
 }
@@ -188,7 +188,7 @@ void ExactRun::end_integrated(int ball, double now) {
             lift_off(ball, now, surface, b.normal);
             return;
         case SingleEnd::kSlipEnds:
-            project(phase.contact, ContactMode::kRolling, phase.state);
+            end_slip(phase.contact, phase.state);
             [[fallthrough]];
         case SingleEnd::kFeature: {
             const Velocities velocities{phase.state.v, phase.state.w};

@@ -6,6 +6,8 @@
 //   State     an array of ContactState, Forces     what forces(state) gives
 //   ball_count(), size() [m: the smallest radius], speed() [m/s: the size of the speeds at hand]
 //   forces(state), acceleration(forces, ball) [m/s^2], spin_rate(forces, ball) [rad/s^2]
+//   energy_error(a, b)    the energy of a less that of b, as a fraction of what is in play at
+//                         b; of states whose places are ways since the start
 //   guard_count(), guard(i, state, forces)    what must stay >= 0 for the law to hold
 //   skip_start(i)    whether a guard that is not open at the start ends nothing there
 #pragma once

@@ -49,6 +49,17 @@ class CoupledLaw {
         return f.acceleration[b];
     }
     const Vec3& spin_rate(const CoupledForces& f, std::size_t b) const { return f.spin_rate[b]; }
+    double energy_error(const CoupledState& a, const CoupledState& b) const {
+        double error = 0, in_play = 0;
+        for (std::size_t i = 0; i < system_.ball_count; ++i) {
+            const CoupledBall& ball = system_.balls[i];
+            error += ball.mass * energy_difference(a[i], b[i], ball.radius, ball.inertia_factor,
+                                                   system_.gravity);
+            in_play +=
+                ball.mass * energy_in_play(b[i], ball.radius, ball.inertia_factor, system_.gravity);
+        }
+        return error / in_play;
+    }
 
     int guard_count() const { return guard_count_; }
     const Guard& guard_at(int i) const { return guards_[static_cast<std::size_t>(i)]; }

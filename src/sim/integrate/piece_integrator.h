@@ -25,6 +25,10 @@ inline constexpr double kLongestTurn = 0.7;
 /// faster, so that the pieces must shorten with it.
 inline constexpr double kSlipPart = 0.6;
 
+/// The energy of a piece deviates at a quarter of it from that of the integrated motion by less
+/// than this fraction of what is in play; elsewhere by 2.2 times that.
+inline constexpr double kEnergyError = 1e-13;
+
 template <class Law>
 struct IntegratedPiece {
     double seconds = 0;                     ///< 0 where something ends at once, or nothing gets on
@@ -156,6 +160,7 @@ class PieceIntegrator {
             result.error = error >= 0 ? std::max(result.error, error)
                                       : std::numeric_limits<double>::infinity();
         }
+        result.error = std::max(result.error, energy_error_of(result, quarter) / kEnergyError);
         return result;
     }
 
@@ -171,6 +176,19 @@ class PieceIntegrator {
         return std::max({place_error / (Law::kFitError * (radius + Ode::way(end, b).norm())),
                          turn_error / (Law::kFitError * (1 + Ode::turn(end, b).norm())),
                          speed_error / (Law::kFitSpeedError * law_.speed())});
+    }
+
+    /// The same of the energy of all balls, as a fraction of what is in play.
+    double energy_error_of(const Fit& fitted, const Numbers& quarter) const {
+        State on_pieces, on_solution;  // places from the start on
+        for (std::size_t b = 0; b < law_.ball_count(); ++b) {
+            const Piece& p = fitted.pieces[b];
+            const double s = 0.25 * fitted.seconds;
+            on_pieces[b] = {p.position_at(s), p.velocity_at(s), p.spin_at(s)};
+            on_solution[b] = {Ode::way(quarter, b), Ode::part(quarter, b, 1),
+                              Ode::part(quarter, b, 2)};
+        }
+        return std::abs(law_.energy_error(on_pieces, on_solution));
     }
 
     State on_fit(const Fit& fitted, double s) const {

@@ -50,6 +50,11 @@ class SingleLaw {
         return f.acceleration;
     }
     const Vec3& spin_rate(const SingleContactForces& f, std::size_t) const { return f.spin_rate; }
+    double energy_error(const State& a, const State& b) const {
+        const double k = contact_.inertia_factor, radius = contact_.radius;
+        return energy_difference(a[0], b[0], radius, k, contact_.gravity) /
+               energy_in_play(b[0], radius, k, contact_.gravity);
+    }
 
     int guard_count() const {
         const int own = mode_ == ContactMode::kRolling     ? 1
@@ -103,17 +108,14 @@ double longest_piece(const SingleContact& c, ContactMode mode, const ContactStat
     return slows > 0 ? std::min(h, kSlipPart * slip / slows) : h;
 }
 
-/// The state after the impulse of friction that ends the slip: it changes the slip s by 1 + 1/k
-/// times what it gives to the velocity. None where that takes longer.
+/// The state after the impulse of friction that ends the slip; none where that takes longer.
 std::optional<ContactState> sudden_grip(const SingleContact& c, ContactMode mode,
                                         const ContactState& start, const SingleContactForces& f) {
     const double k = c.inertia_factor;
     if (mode != ContactMode::kSliding || !(f.push > 0)) return std::nullopt;
     if (f.slip.norm() > kSudden * c.friction * f.push * (1 + 1 / k)) return std::nullopt;
-    const Vec3 change = -f.slip / (1 + 1 / k);
     ContactState state = start;
-    state.v += change;
-    state.w -= f.normal.cross(change) / (k * c.radius);
+    end_slip(c, state);
     return state;
 }
 

@@ -60,6 +60,29 @@ double grip_left(const SingleContact& c, const SingleContactForces& forces) {
     return c.friction * forces.push - k / (1 + k) * forces.drive.norm();
 }
 
+void end_slip(const SingleContact& c, ContactState& state) {
+    const double k = c.inertia_factor;
+    const Vec3 n = c.normal_at(state.x);
+    const Vec3 slip = state.v - n.dot(state.v) * n - c.radius * state.w.cross(n);
+    // A change of v changes the slip by 1 + 1/k times as much.
+    const Vec3 change = -slip / (1 + 1 / k);
+    state.v += change;
+    state.w -= n.cross(change) / (k * c.radius);
+}
+
+double energy_difference(const ContactState& a, const ContactState& b, double radius,
+                         double inertia_factor, const Vec3& gravity) {
+    const double inertia = inertia_factor * radius * radius;
+    return 0.5 * (a.v - b.v).dot(a.v + b.v) + 0.5 * inertia * (a.w - b.w).dot(a.w + b.w) -
+           gravity.dot(a.x - b.x);
+}
+
+double energy_in_play(const ContactState& s, double radius, double inertia_factor,
+                      const Vec3& gravity) {
+    const double inertia = inertia_factor * radius * radius;
+    return 0.5 * s.v.squaredNorm() + 0.5 * inertia * s.w.squaredNorm() + gravity.norm() * radius;
+}
+
 void project(const SingleContact& c, ContactMode mode, ContactState& state) {
     const Vec3 q = c.across * (state.x - c.origin);
     const double distance = q.norm();

@@ -64,6 +64,18 @@ double lift_off_threshold(const SingleContact& contact, const Vec3& x);
 /// mu N - |f| of rolling: it rolls while this is >= 0.
 double grip_left(const SingleContact& contact, const SingleContactForces& forces);
 
+/// Ends what is left of a slip by the impulse of friction that this takes: momentum and energy go
+/// with it.
+void end_slip(const SingleContact& contact, ContactState& state);
+
+/// Kinetic and potential energy of a ball in `a` less those in `b`, per mass [m^2/s^2].
+double energy_difference(const ContactState& a, const ContactState& b, double radius,
+                         double inertia_factor, const Vec3& gravity);
+
+/// The energy per mass that is in play [m^2/s^2]: kinetic, and that of a fall by the radius.
+double energy_in_play(const ContactState& state, double radius, double inertia_factor,
+                      const Vec3& gravity);
+
 /// Puts rounding right: the centre on its distance, the velocity along the surface and, when it
 /// rolls, no slip.
 void project(const SingleContact& contact, ContactMode mode, ContactState& state);
