@@ -286,10 +286,10 @@ TEST(ExactIslands, StepsInACornerAddNoEnergy) {
             least = std::min(least, now);
         }
     }
-    std::printf("%lld steps, energy rises by %.2g J at most (1e-6)\n",
+    std::printf("%lld steps, energy rises by %.2g J at most (3e-8)\n",
                 static_cast<long long>(steps), worst);
     EXPECT_GE(steps, 100);
-    EXPECT_LE(worst, 1e-6);
+    EXPECT_LE(worst, 3e-8);
 }
 
 }  // namespace

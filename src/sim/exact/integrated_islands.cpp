@@ -7,6 +7,7 @@
 #include "sim/integrate/coupled_motion.h"
 #include "sim/integrate/uniform_piece.h"
 #include "sim/law/contact_modes.h"
+#include "sim/world/energy_account.h"
 #include "sim/world/seams.h"
 
 namespace carom {
@@ -21,6 +22,9 @@ constexpr double kBalanced = 1e-12;
 
 /// Integrated velocities leave this fraction of the speeds of a 0.
 constexpr double kRoundingSpeed = 1e-11;
+
+/// An impact with so much of the friction that sliding has has slid all the way.
+constexpr double kSlides = 1 - 1e-9;
 
 /// Where there are more balls, three that touch will soon touch others, as in a box into which they
 /// are poured: they are stepped from the beginning.
@@ -123,12 +127,14 @@ void ExactRun::unlink(const Contact& c, double now) {
     if (!c.other.is_surface) forget(c.other.index, {false, c.ball});
 }
 
-/// Whether the contact has had an impact at this instant, the friction of which it gives back: that
-/// of an earlier one has had its effect.
-bool ExactRun::has_hit(const Contact& c, double now) const {
+/// Whether the contact has slid all through an impact at this instant, the friction of which it
+/// gives back: that of an earlier one has had its effect, and that of one which gripped has stopped
+/// a slip that another bounce would find stopped.
+bool ExactRun::slid_in_impact(const Contact& c, double now) const {
     const std::vector<Event>& events = motion_.events;
     for (auto e = events.rbegin(); e != events.rend() && e->time == now; ++e)
-        if (e->kind == EventKind::kImpact && e->ball == c.ball && e->other == c.other) return true;
+        if (e->kind == EventKind::kImpact && e->ball == c.ball && e->other == c.other)
+            return e->tangential_impulse >= kSlides * c.friction * e->impulse;
     return false;
 }
 
@@ -146,22 +152,24 @@ void ExactRun::pay_for_places(const std::vector<int>& island, double now, Couple
     if (std::none_of(island.begin(), island.end(),
                      [this](int ball) { return world_.ball(ball).coarse; }))
         return;
-    double kinetic = 0, before = 0, lifted = 0;
+    EnergyAccount account(is.system.gravity);
+    std::vector<Vec3> old_places, places;
+    std::vector<Velocities> old_velocities, velocities;
     for (std::size_t b = 0; b < island.size(); ++b) {
         const ExactBall& ball = world_.ball(island[b]);
-        const double inertia = ball.inertia_factor * ball.mass * ball.radius * ball.radius;
-        const Velocities v = world_.velocities(island[b], now);
-        const ContactState& s = is.state[b];
-        before += 0.5 * (ball.mass * v.linear.squaredNorm() + inertia * v.spin.squaredNorm());
-        kinetic += 0.5 * (ball.mass * s.v.squaredNorm() + inertia * s.w.squaredNorm());
-        lifted -= ball.mass * is.system.gravity.dot(s.x - world_.position(island[b], now));
+        old_places.push_back(world_.position(island[b], now));
+        old_velocities.push_back(world_.velocities(island[b], now));
+        account.add(ball.mass, ball.inertia_factor * ball.mass * ball.radius * ball.radius,
+                    ball.radius, old_places.back());
+        places.push_back(is.state[b].x);
+        velocities.push_back({is.state[b].v, is.state[b].w});
     }
-    const double excess = kinetic + lifted - before;
-    if (excess <= kBalanced * kinetic) return;
-    const double factor = std::sqrt(std::max(0.0, 1 - excess / kinetic));
+    const double excess =
+        account.total(places, velocities) - account.total(old_places, old_velocities);
+    if (!account.take_away(excess, velocities)) return;
     for (std::size_t b = 0; b < island.size(); ++b) {
-        is.state[b].v *= factor;
-        is.state[b].w *= factor;
+        is.state[b].v = velocities[b].linear;
+        is.state[b].w = velocities[b].spin;
     }
 }
 
@@ -178,7 +186,7 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
         if (landing_of(is.contacts[i], now) == nullptr) continue;
         lands = true;
-        gives_back[i] = now == 0 || has_hit(is.contacts[i], now);  // the first hop had no impact
+        gives_back[i] = now == 0 || slid_in_impact(is.contacts[i], now);  // the first hop had none
     }
     if (lands) land(is.system, gives_back, is.state);
     if (!choose_modes(is.system, is.state)) return false;

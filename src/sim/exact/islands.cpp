@@ -32,11 +32,11 @@ constexpr double kSlowSeconds = 200 * kIslandStep;
 /// solved by the next step, without rebound.
 constexpr std::size_t kMostCoupled = 40;
 
-/// An island of so many balls is a pile, and so is a smaller one that does not come to rest in so
-/// many steps: in a pile one ball that rolls on does not keep the others awake.
+/// An island of so many balls is a pile, and so is a smaller one that does not come to rest in this
+/// time: in a pile one ball that rolls on does not keep the others awake.
 constexpr std::size_t kPile = 24;
 constexpr std::size_t kSmallPile = 4;
-constexpr int kRestlessSteps = 1000;
+constexpr double kRestlessSeconds = 1000 * kIslandStep;
 
 /// Normals closer than this [rad] are one, along which a resting ball may spin.
 constexpr double kSameNormal = 1e-9;
@@ -87,6 +87,7 @@ void ExactRun::enter_island(int ball, double now, const Velocities& velocities) 
     b.stepped = true;
     b.asleep = false;
     b.steps = b.calm_steps = b.slow_steps = 0;
+    b.stepped_seconds = 0;
     b.event_due = kInfinity;
     b.phase_end = now;
     begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
@@ -181,7 +182,7 @@ void ExactRun::step_islands(const std::vector<int>& balls, double now) {
 bool ExactRun::is_pile(const std::vector<int>& island) const {
     if (island.size() < kSmallPile) return false;
     return island.size() >= kPile || std::any_of(island.begin(), island.end(), [this](int ball) {
-               return world_.ball(ball).steps >= kRestlessSteps;
+               return world_.ball(ball).stepped_seconds >= kRestlessSeconds;
            });
 }
 
@@ -222,7 +223,9 @@ bool ExactRun::leave_island(int ball, double now) {
         world_.ball(ball).kind = link.stated;
     }
     links.clear();
-    const bool lands = landing_of(contact, now) != nullptr;
+    // What another impact has lifted has no friction of its own to give back.
+    const bool lands =
+        landing_of(contact, now) != nullptr && (v <= 0 || now == 0 || slid_in_impact(contact, now));
     begin_contact(ball, now, contact,
                   lands ? landed(ball, now, contact, velocities, v) : velocities,
                   std::max(link.event_due - now, 0.0), link.from_start);
@@ -255,13 +258,14 @@ void ExactRun::step_island(const std::vector<int>& balls, double now) {
         asleep = asleep && (b.calm_steps * step.seconds() >= kCalmSeconds ||
                             b.slow_steps * step.seconds() >= kSlowSeconds);
         ++b.steps;
+        b.stepped_seconds += step.seconds();
         b.phase_end = now + step.seconds();
         b.stepped = b.coarse = true;
         begin_piece(balls[i], now, r.start, r.acceleration, r.spin_rate);
     }
     for (std::size_t i = 0; i < step.contacts().size(); ++i) {
         const Contact& c = step.contacts()[i];
-        note_push(c, step.push(i));
+        note_push(c, kIslandStep / step.seconds() * step.push(i));
         for (Link& link : links_.of(c.ball)) {
             if (link.partner != c.other) continue;
             note_link(link, c, calm, calm_speed, now);

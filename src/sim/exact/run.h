@@ -133,7 +133,7 @@ class ExactRun {
     };
     void note_landing(const Contact& contact, double now, double event_due);
     const Landing* landing_of(const Contact& contact, double now) const;
-    bool has_hit(const Contact& contact, double now) const;
+    bool slid_in_impact(const Contact& contact, double now) const;
     double next_contact_event(const std::vector<int>& island, double now) const;
     bool is_coarse(const Contact& contact) const;
     bool in_reach(const Contact& contact) const;

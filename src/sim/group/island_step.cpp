@@ -20,9 +20,13 @@ constexpr double kRelaxation = 0.5;
 /// Overlaps up to this fraction of the smaller radius stay, so that resting balls do not move.
 constexpr double kSlop = 1e-9;
 
-/// A rise of energy by this fraction is rounding; potentials follow speeds after so many rounds.
-constexpr double kEnergyRounding = 1e-14;
+/// Potentials follow speeds after so many rounds.
 constexpr int kEnergyRounds = 3;
+
+/// Between the ends of a step the energy may rise by this fraction of what is in play. A step that
+/// would do more is shortened, which lowers it with the square; at most to this fraction.
+constexpr double kRise = 5e-10;
+constexpr double kShortest = 1.0 / 64;
 
 double inverse_mass(const ExactWorld& world, int ball) { return 1 / world.ball(ball).mass; }
 
@@ -40,12 +44,16 @@ double normal_speed(const Contact& c, const std::vector<ImpactBody>& bodies) {
 
 IslandStep::IslandStep(const ExactWorld& world, const Links& links, const std::vector<int>& balls,
                        double now)
-    : world_(world), balls_(balls), results_(balls.size()), after_(balls.size()) {
+    : world_(world),
+      balls_(balls),
+      account_(world.scene.simulation.gravity),
+      results_(balls.size()),
+      after_(balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const BallState& start = results_[i].start = world.state(balls[i], now);
-        places_.push_back(start.position);
-        energy_ += 0.5 * world.ball(balls[i]).mass * start.velocity.squaredNorm() +
-                   turning_energy(i, start.spin);
+        const ExactBall& b = world.ball(balls[i]);
+        account_.add(b.mass, b.inertia_factor * b.mass * b.radius * b.radius, b.radius,
+                     start.position);
         for (const Link& link : links.of(balls[i])) {
             const Contact c = world.contact_at(balls[i], link.partner, now);
             if (c.ball != balls[i]) continue;
@@ -53,7 +61,29 @@ IslandStep::IslandStep(const ExactWorld& world, const Links& links, const std::v
             pushes_.push_back(link.push);
         }
     }
+    energy_ = account_.total(start_places(), start_velocities());
     if (balls.size() == 1 && contacts_.size() == 1) seconds_ = kLoneStep;
+}
+
+std::vector<Vec3> IslandStep::start_places() const {
+    std::vector<Vec3> places;
+    for (const Result& r : results_) places.push_back(r.start.position);
+    return places;
+}
+
+std::vector<Velocities> IslandStep::start_velocities() const {
+    std::vector<Velocities> velocities;
+    for (const Result& r : results_) velocities.push_back({r.start.velocity, r.start.spin});
+    return velocities;
+}
+
+std::vector<Vec3> IslandStep::end_places() const {
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+        const BallState& start = results_[i].start;
+        places.push_back(start.position + 0.5 * seconds_ * (start.velocity + after_[i].linear));
+    }
+    return places;
 }
 
 std::size_t IslandStep::index_of(int ball) const {
@@ -155,16 +185,20 @@ void IslandStep::set_start(const std::vector<Velocities>& velocities) {
 void IslandStep::solve(IslandSolver& solver) {
     stop_approaches(solver);
     keep_energy_at_start();
-    std::vector<ImpactBody> moving = bodies(0.5 * seconds_);
-    std::vector<Contact> local = local_contacts(0.5 * seconds_);
-    solver.step(moving, local, pushes_, world_.scene.simulation.gravity, seconds_);
-
-    for (std::size_t i = 0; i < balls_.size(); ++i) after_[i] = moving[i].velocities;
-    keep_energy_at_end();
-    for (std::size_t i = 0; i < balls_.size(); ++i) {
-        Result& r = results_[i];
-        r.acceleration = (after_[i].linear - r.start.velocity) / seconds_;
-        r.spin_rate = (after_[i].spin - r.start.spin) / seconds_;
+    const double full = seconds_;
+    std::vector<Contact> local;
+    for (;;) {
+        std::vector<ImpactBody> moving = bodies(0.5 * seconds_);
+        local = local_contacts(0.5 * seconds_);
+        solver.step(moving, local, pushes_, world_.scene.simulation.gravity, seconds_);
+        for (std::size_t i = 0; i < balls_.size(); ++i) after_[i] = moving[i].velocities;
+        keep_energy_at_end();
+        set_rates();
+        const double too_much = rise_within() / (kRise * account_.in_play(start_velocities()));
+        if (!(too_much > 1) || seconds_ <= kShortest * full) break;
+        const double part = std::clamp(0.9 / std::sqrt(too_much), 0.125, 0.75);
+        seconds_ *= part;
+        for (Vec3& push : pushes_) push *= part;
     }
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         const int ball = contacts_[i].ball;
@@ -175,72 +209,38 @@ void IslandStep::solve(IslandSolver& solver) {
     }
 }
 
-double IslandStep::turning_energy(std::size_t ball, const Vec3& spin) const {
-    const ExactBall& b = world_.ball(balls_[ball]);
-    return 0.5 * b.inertia_factor * b.mass * b.radius * b.radius * spin.squaredNorm();
+void IslandStep::set_rates() {
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+        Result& r = results_[i];
+        r.acceleration = (after_[i].linear - r.start.velocity) / seconds_;
+        r.spin_rate = (after_[i].spin - r.start.spin) / seconds_;
+    }
 }
 
-/// The kinetic energy that the balls would have, less what gravity has done on the way to `ends`.
-double IslandStep::energy(const std::vector<Velocities>& velocities,
-                          const std::vector<Vec3>& ends) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < balls_.size(); ++i) {
-        const double mass = world_.ball(balls_[i]).mass;
-        sum += 0.5 * mass * velocities[i].linear.squaredNorm() +
-               turning_energy(i, velocities[i].spin) -
-               mass * world_.scene.simulation.gravity.dot(ends[i] - places_[i]);
+/// How far the energy rises on the way, J.
+double IslandStep::rise_within() const {
+    std::vector<Vec3> accelerations, spin_rates;
+    for (const Result& r : results_) {
+        accelerations.push_back(r.acceleration);
+        spin_rates.push_back(r.spin_rate);
     }
-    return sum;
-}
-
-/// Takes an excess of energy [J] from speeds relative to the centre of mass, if that suffices.
-/// False where there is none beyond rounding.
-bool IslandStep::take_away(double excess, std::vector<Velocities>& velocities) const {
-    Vec3 centre = Vec3::Zero();
-    double total_mass = 0;
-    for (std::size_t i = 0; i < balls_.size(); ++i) {
-        centre += world_.ball(balls_[i]).mass * velocities[i].linear;
-        total_mass += world_.ball(balls_[i]).mass;
-    }
-    centre /= total_mass;
-    double relative = 0;
-    for (std::size_t i = 0; i < balls_.size(); ++i)
-        relative +=
-            0.5 * world_.ball(balls_[i]).mass * (velocities[i].linear - centre).squaredNorm() +
-            turning_energy(i, velocities[i].spin);
-    const double all = relative + 0.5 * total_mass * centre.squaredNorm();
-    if (excess <= kEnergyRounding * all) return false;
-    const bool suffices = relative > 2 * excess;
-    if (!suffices) centre.setZero();
-    const double factor = std::sqrt(std::max(0.0, 1 - excess / (suffices ? relative : all)));
-    for (Velocities& v : velocities) {
-        v.linear = centre + factor * (v.linear - centre);
-        v.spin *= factor;
-    }
-    return true;
+    const double bulge =
+        -0.125 * seconds_ * seconds_ * account_.second_rate(accelerations, spin_rates);
+    return rise_of_parabola(energy_ - account_.total(end_places(), after_), bulge);
 }
 
 /// Places that are put right may lie higher.
 void IslandStep::keep_energy_at_start() {
-    std::vector<Velocities> velocities;
-    std::vector<Vec3> places;
-    for (const Result& r : results_) {
-        velocities.push_back({r.start.velocity, r.start.spin});
-        places.push_back(r.start.position);
-    }
-    if (take_away(energy(velocities, places) - energy_, velocities)) set_start(velocities);
-    energy_ = energy(velocities, places);  // less where something has been stopped
+    std::vector<Velocities> velocities = start_velocities();
+    const std::vector<Vec3> places = start_places();
+    if (account_.take_away(account_.total(places, velocities) - energy_, velocities))
+        set_start(velocities);
+    energy_ = account_.total(places, velocities);  // less where something has been stopped
 }
 
 void IslandStep::keep_energy_at_end() {
-    for (int round = 0; round < kEnergyRounds; ++round) {
-        std::vector<Vec3> ends;
-        for (std::size_t i = 0; i < balls_.size(); ++i) {
-            const BallState& start = results_[i].start;
-            ends.push_back(start.position + 0.5 * seconds_ * (start.velocity + after_[i].linear));
-        }
-        if (!take_away(energy(after_, ends) - energy_, after_)) return;
-    }
+    for (int round = 0; round < kEnergyRounds; ++round)
+        if (!account_.take_away(account_.total(end_places(), after_) - energy_, after_)) return;
 }
 
 bool IslandStep::is_calm(double speed) const {

@@ -6,6 +6,7 @@
 
 #include "geometry/nearest.h"
 #include "sim/solve/island_solver.h"
+#include "sim/world/energy_account.h"
 #include "sim/world/exact_world.h"
 #include "sim/world/links.h"
 
@@ -43,6 +44,7 @@ class IslandStep {
     IslandStep(const ExactWorld& world, const Links& links, const std::vector<int>& balls,
                double now);
 
+    /// Shorter after solve() where the energy would have risen on the way.
     double seconds() const { return seconds_; }
 
     /// Moves overlapping balls apart, the lighter ones more. Speeds are not touched.
@@ -63,19 +65,21 @@ class IslandStep {
     std::vector<Contact> local_contacts(double ahead) const;
     void stop_approaches(IslandSolver& solver);
     void set_start(const std::vector<Velocities>& velocities);
-    double turning_energy(std::size_t ball, const Vec3& spin) const;
+    void set_rates();
+    std::vector<Vec3> start_places() const;
+    std::vector<Velocities> start_velocities() const;
+    std::vector<Vec3> end_places() const;
     std::size_t index_of(int ball) const;
     // Contacts and friction give no energy: what a step's error would add is taken from the speeds.
     void keep_energy_at_start();
     void keep_energy_at_end();
-    bool take_away(double excess, std::vector<Velocities>& velocities) const;
-    double energy(const std::vector<Velocities>& velocities, const std::vector<Vec3>& ends) const;
+    double rise_within() const;
 
     const ExactWorld& world_;
     const std::vector<int>& balls_;
     double seconds_ = kIslandStep;
-    double energy_ = 0;         ///< at the start, with a potential of 0 at places_, J
-    std::vector<Vec3> places_;  ///< at the start, before they are corrected
+    EnergyAccount account_;  ///< with a potential of 0 at the start, before places are corrected
+    double energy_ = 0;      ///< at the start, J
     std::vector<Result> results_;
     std::vector<Velocities> after_;
     std::vector<Contact> contacts_;

@@ -41,9 +41,10 @@ struct alignas(64) ExactBall {
     std::uint64_t resolved = 0;  ///< the last instant at which an impact of it was resolved
     /// ODE steps its island: its gaps and speeds are known to what a step can tell.
     bool coarse = false;
-    int steps = 0;       ///< taken since it joined an island
-    int calm_steps = 0;  ///< on end, in which it hardly moved
-    int slow_steps = 0;  ///< on end, in which it moved, but slowly
+    int steps = 0;               ///< taken since it joined an island
+    double stepped_seconds = 0;  ///< the same time, s
+    int calm_steps = 0;          ///< on end, in which it hardly moved
+    int slow_steps = 0;          ///< on end, in which it moved, but slowly
     /// s, when the row of the lasting contact is due: at the end of its bouncing series.
     double event_due = std::numeric_limits<double>::infinity();
 };

@@ -1,0 +1,187 @@
+// No motion gives energy, to the rounding of its numbers: along integrated pieces, where slips and
+// bouncing series end, and within steps of ODE.
+#include <algorithm>
+#include <cmath>
+
+#include "curved_scenes.h"
+#include "scene/reader.h"
+#include "sim/law/single_contact.h"
+#include "sim/world/energy_account.h"
+
+namespace carom::testing {
+namespace {
+
+constexpr double kG = kGravity;
+
+/// How far the energy [J] rises above what it had been before, at the starts of all pieces and at
+/// instants between, on both sides of each, up to `end` [s].
+double rise_of_energy(const Scene& scene, const Motion& motion, double end) {
+    std::vector<double> times;
+    for (const Trajectory& ball : motion.balls)
+        for (std::size_t i = 0; i < ball.pieces().size(); ++i) {
+            const double begin = ball.pieces()[i].start;
+            const bool last = i + 1 == ball.pieces().size();
+            const double next = last ? motion.duration : ball.pieces()[i + 1].start;
+            for (int k = 0; k < 16; ++k) times.push_back(begin + (next - begin) * k / 16);
+        }
+    std::sort(times.begin(), times.end());
+    double least = INFINITY, rise = 0;
+    for (const double t : times)
+        for (const bool before : {true, false}) {
+            if (t > end) continue;
+            double sum = 0;
+            for (std::size_t b = 0; b < scene.balls.size(); ++b) {
+                const Ball& ball = scene.balls[b];
+                const Trajectory& path = motion.balls[b];
+                const BallState s =
+                    path.pieces()[path.piece_index(before ? std::nextafter(t, -1) : t)].at(t);
+                sum += ball.mass * (0.5 * s.velocity.squaredNorm() +
+                                    0.5 * ball.inertia_factor * ball.radius * ball.radius *
+                                        s.spin.squaredNorm() -
+                                    scene.simulation.gravity.dot(s.position - ball.position));
+            }
+            rise = std::max(rise, sum - least);
+            least = std::min(least, sum);
+        }
+    return rise;
+}
+
+/// A ball slides over the edge of a box without friction, and leaves it: 0.5 v^2 + g R = 1.1 J.
+TEST(Energy, OverAnEdgeItIsKept) {
+    double worst = 0;
+    for (const double speed : {0.2, 0.3, 0.45, 0.6, 0.8}) {
+        Scene scene = exact_scene(0, 0, kG);
+        scene.simulation.duration = 2;
+        add_surface(scene, "box", BoxShape{Vec3(-1, 0, -0.5), Vec3(2, 2, 1), Quat::Identity()});
+        add_ball(scene, Vec3(-0.2, 0, 0.1), Vec3(speed, 0, 0), 0.1);
+        const Motion motion = simulate(scene).motion;
+        const Event leaves = only(motion, EventKind::kLeave);
+        worst = std::max(worst, rise_of_energy(scene, motion, leaves.time));
+    }
+    std::printf("energy rises by %.2g J at most (6e-13)\n", worst);
+    EXPECT_LE(worst, 6e-13);
+}
+
+/// It rolls down over a joint of two rails.
+TEST(Energy, OverAJointOfRailsItIsKept) {
+    double worst = 0;
+    for (const double speed : {0.7, 0.8, 1.0}) {
+        Scene scene = exact_scene(0, 1, kG);
+        scene.simulation.duration = 0.6;
+        for (const double y : {-0.1, 0.1}) {
+            add_surface(scene, "level", CapsuleShape{Vec3(-1, y, 0), Vec3(0, y, 0), 0.125});
+            add_surface(scene, "steep", CapsuleShape{Vec3(0, y, 0), Vec3(0.8, y, -0.4), 0.125});
+        }
+        add_ball(scene, Vec3(-0.1, 0, std::sqrt(0.185 * 0.185 - 0.01)), Vec3(speed, 0, 0), 0.06);
+        worst = std::max(worst, rise_of_energy(scene, simulate(scene).motion, 0.6));
+    }
+    std::printf("energy rises by %.2g J at most (1e-12)\n", worst);
+    EXPECT_LE(worst, 1e-12);
+}
+
+/// An impulse of friction that stops a slip s takes m s^2 / (2 (1 + 1/k)), and leaves the angular
+/// momentum about the contact point: n x v + k R w.
+TEST(Energy, TheEndOfASlipTakesItsEnergy) {
+    SingleContact contact;
+    contact.distance = contact.radius = 0.1;
+    contact.inertia_factor = 2.0 / 3;
+    contact.across = Vec3::UnitZ() * Vec3::UnitZ().transpose();
+    const ContactState before{Vec3(0, 0, 0.1), Vec3(1, 0.2, 0), Vec3(3, 11, -2)};
+    ContactState after = before;
+    end_slip(contact, after);
+    const Vec3 n = Vec3::UnitZ();
+    const auto slip = [&](const ContactState& s) -> Vec3 { return s.v - 0.1 * s.w.cross(n); };
+    const auto about_contact = [&](const ContactState& s) -> Vec3 {
+        return n.cross(s.v) + (2.0 / 3) * 0.1 * s.w;
+    };
+    EXPECT_LE(slip(after).norm(), 1e-15);
+    EXPECT_LE((about_contact(after) - about_contact(before)).norm(), 1e-15);
+    EXPECT_EQ(after.w.z(), before.w.z());
+    const double lost = energy_difference(before, after, 0.1, 2.0 / 3, Vec3::Zero());
+    EXPECT_NEAR(lost, slip(before).squaredNorm() / (2 * 2.5), 1e-15);
+}
+
+/// A slip that turns across a slope ends in rolling.
+TEST(Energy, WhereASlipTurnsIntoRollingItDoesNotRise) {
+    Scene scene = exact_scene(0, 1, kG);
+    scene.simulation.duration = 0.3;
+    const Vec3 n = Vec3(0.12343085506718862, -0.021521650881630442, 0.9921197722859433);
+    add_plane(scene, n);
+    Ball& ball = add_ball(scene, 0.1 * n, Vec3(1.9, -0.33, 0), 0.1);
+    ball.inertia_factor = 2.0 / 3;
+    ball.spin = Vec3(1.8, 7.4, -4.9);
+    const Motion motion = simulate(scene).motion;
+    ASSERT_EQ(events_of(motion, EventKind::kRoll).size(), 1u);
+    const double rise = rise_of_energy(scene, motion, 0.3);
+    std::printf("energy rises by %.2g J (1e-13)\n", rise);
+    EXPECT_LE(rise, 1e-13);
+}
+
+/// A ball that rolls along a groove of two planes hops on one of them: its impacts grip, and the
+/// end of their series has no friction to give back.
+TEST(Energy, BouncesThatGripEndWithoutAGain) {
+    const char* text = R"(carom: 1
+simulation: {duration: 1.25, gravity: [0, 0, -9.81]}
+materials:
+  m1: {restitution: 0.41, friction: 3.076182951417199}
+  m2: {restitution: 0.41, friction: 0.5425341197553754}
+surfaces:
+  - name: s2
+    plane: {normal: [-0.7600784401359856, -0.35682826614165364, 0.5430970017619211], offset: -1.5}
+    material: m2
+  - name: s3
+    plane: {normal: [0.5331144447355779, 0.13548476979834626, 0.8351244613630746], offset: -1.5}
+    material: m1
+balls:
+  - name: b0
+    radius: 0.09686743677910879
+    mass: 9.58215242490688
+    material: m2
+    position: [0.10857023568935786, 1.0165210763310846, -0.8801678669384401]
+    spin: [7.4512105684403185, 32.118178908911624, -42.67962918768723]
+)";
+    const SceneResult read = read_scene(text, "groove.yaml");
+    ASSERT_TRUE(read.scene.has_value());
+    const Motion motion = simulate(*read.scene).motion;
+    ASSERT_GE(impacts_of(motion).size(), 20u);
+    const double rise = rise_of_energy(*read.scene, motion, 1.25);
+    std::printf("energy rises by %.2g J (1e-12)\n", rise);
+    EXPECT_LE(rise, 1e-12);
+}
+
+/// e(u) = -L u + 4 B u (1 - u): its rise, found by looking, is (4 |B| - L)^2 / (16 |B|).
+TEST(Energy, TheRiseOfAParabola) {
+    for (const double loss : {0.0, 0.3, 1.0, 4.1})
+        for (const double bulge : {-1.0, -0.2, 0.2, 1.0}) {
+            double least = 0, rise = 0;
+            for (int i = 0; i <= 100000; ++i) {
+                const double u = i / 100000.0, e = -loss * u + 4 * bulge * u * (1 - u);
+                least = std::min(least, e);
+                rise = std::max(rise, e - least);
+            }
+            EXPECT_NEAR(rise_of_parabola(loss, bulge), rise, 1e-9) << loss << " " << bulge;
+        }
+}
+
+/// What an account takes from speeds is the energy that was asked for, from the motion relative to
+/// the centre of mass as long as there is some.
+TEST(Energy, AnAccountTakesWhatItIsAskedFor) {
+    EnergyAccount account(Vec3(0, 0, -10));
+    account.add(2, 0.01, 0.1, Vec3(1, 0, 0));
+    account.add(3, 0.02, 0.2, Vec3(2, 0, 0));
+    const std::vector<Vec3> places = {Vec3(1, 0, 0.5), Vec3(2, 1, 0)};
+    std::vector<Velocities> velocities = {{Vec3(1, 2, 0), Vec3(0, 0, 4)},
+                                          {Vec3(-1, 0, 0), Vec3::Zero()}};
+    const double before = account.total(places, velocities);
+    EXPECT_NEAR(before, 5 + 0.08 + 1.5 + 2 * 10 * 0.5, 1e-14);
+    const Vec3 momentum = 2 * velocities[0].linear + 3 * velocities[1].linear;
+    EXPECT_TRUE(account.take_away(1, velocities));
+    EXPECT_NEAR(account.total(places, velocities), before - 1, 1e-14);
+    EXPECT_LE((2 * velocities[0].linear + 3 * velocities[1].linear - momentum).norm(), 1e-14);
+    EXPECT_TRUE(account.take_away(5, velocities));
+    EXPECT_NEAR(account.total(places, velocities), before - 6, 1e-14);
+    EXPECT_FALSE(account.take_away(0, velocities));
+}
+
+}  // namespace
+}  // namespace carom::testing
