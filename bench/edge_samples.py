@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """How well few samples in a pixel see straight edges of every direction and place: the part of the
-pixel on one side by the lattice of src/render/shaders/static_fragment.glsl and by square grids,
+pixel on one side by the lattice of src/render/shaders/background_fragment.glsl and by square grids,
 against 8 x 8 samples. Prints the largest and the root mean square error, in parts of the contrast.
 """
 import bisect

@@ -14,7 +14,7 @@
 
 #include "core/check.h"
 #include "render/painter.h"
-#include "render/two_runs.h"
+#include "render/runs/second_run.h"
 #include "scene/reader.h"
 #include "sim/simulate.h"
 
@@ -120,7 +120,7 @@ Cost cost_of(const Feature& feature, int frames) {
     Painter painter(scene, simulated.motion,
                     {.width_px = scene.film.width_px,
                      .height_px = scene.film.height_px,
-                     .against = second ? &*second : nullptr});
+                     .second = second ? &*second : nullptr});
     Image picture;
     Cost cost;
     std::vector<double> each;

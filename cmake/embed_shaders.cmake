@@ -1,6 +1,6 @@
 # Writes every shader file as a raw string behind render::shader_source(name).
 # (-DFILES arrives as a list; the text is cut into pieces because a string literal has a length limit.)
-set(text "#include \"render/shader_sources.h\"\n\n#include <string_view>\n\nnamespace carom {\n\n")
+set(text "#include \"render/gl/shader_sources.h\"\n\n#include <string_view>\n\nnamespace carom {\n\n")
 string(APPEND text "std::string_view shader_source(std::string_view name) {\n")
 foreach(file IN LISTS FILES)
   get_filename_component(name "${file}" NAME_WE)

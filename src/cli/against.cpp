@@ -42,24 +42,24 @@ std::vector<Override> overrides_of(const std::vector<std::string>& set) {
     return overrides;
 }
 
-/// Where the other run's scene comes from.
-struct OtherSource {
+/// Where the second run's scene comes from.
+struct SecondSource {
     std::string text, file;
     std::vector<Override> overrides;
     bool same_file = false;
 };
 
-OtherSource other_source(const Scene& scene, const std::string& text,
-                         const std::vector<Override>& overrides, const Against& wanted) {
-    OtherSource other;
-    other.same_file = wanted.scene.empty();
+SecondSource second_source(const Scene& scene, const std::string& text,
+                           const std::vector<Override>& overrides, const Against& wanted) {
+    SecondSource second;
+    second.same_file = wanted.scene.empty();
     if (scene.file == "<stdin>" && wanted.scene == "-")
         throw Failure(FailureKind::kInput, "--against -: standard input is the scene itself");
-    other.text = other.same_file ? text : read_scene_text(wanted.scene);
-    other.file = other.same_file ? scene.file : wanted.scene == "-" ? "<stdin>" : wanted.scene;
-    if (other.same_file) other.overrides = overrides;
-    for (const Override& override : overrides_of(wanted.set)) other.overrides.push_back(override);
-    return other;
+    second.text = second.same_file ? text : read_scene_text(wanted.scene);
+    second.file = second.same_file ? scene.file : wanted.scene == "-" ? "<stdin>" : wanted.scene;
+    if (second.same_file) second.overrides = overrides;
+    for (const Override& override : overrides_of(wanted.set)) second.overrides.push_back(override);
+    return second;
 }
 
 void print(const Diagnostics& diagnostics, bool quiet) {
@@ -67,8 +67,8 @@ void print(const Diagnostics& diagnostics, bool quiet) {
         if (!quiet || d.severity == Severity::kError) say("{}\n", d.text());
 }
 
-std::string run_name(const Scene& scene, const Scene& other) {
-    if (!scene.title.empty() && scene.title != other.title) return scene.title;
+std::string run_name(const Scene& scene, const Scene& compared) {
+    if (!scene.title.empty() && scene.title != compared.title) return scene.title;
     return scene_stem(scene.file == "<stdin>" ? "-" : scene.file);
 }
 
@@ -105,39 +105,39 @@ std::optional<FilmScenes> load_film_scenes(const std::string& path, const Common
     if (!wanted) return scenes;
 
     scenes.view = wanted->view;
-    const OtherSource other = other_source(scenes.scene, text, overrides, *wanted);
-    SceneResult second = read_scene(other.text, other.file, other.overrides);
+    const SecondSource source = second_source(scenes.scene, text, overrides, *wanted);
+    SceneResult second = read_scene(source.text, source.file, source.overrides);
     // Of the same file warnings have been printed.
-    print(second.diagnostics, options.quiet || other.same_file);
+    print(second.diagnostics, options.quiet || source.same_file);
     if (!second.scene) return std::nullopt;
-    scenes.other = std::move(second.scene);
-    scenes.differences = scene_differences(text, overrides, other.text, other.overrides);
+    scenes.second = std::move(second.scene);
+    scenes.differences = scene_differences(text, overrides, source.text, source.overrides);
     if (scenes.differences.empty() && !options.quiet)
         say("carom: warning: both runs are the same\n");
     return scenes;
 }
 
-std::optional<SceneResult> read_other(const Scene& scene, const std::string& text,
-                                      const std::vector<Override>& overrides) {
+std::optional<SceneResult> read_second(const Scene& scene, const std::string& text,
+                                       const std::vector<Override>& overrides) {
     const std::optional<Against> wanted = wanted_against(scene, {});
     if (!wanted) return std::nullopt;
-    const OtherSource other = other_source(scene, text, overrides, *wanted);
-    return read_scene(other.text, other.file, other.overrides);
+    const SecondSource source = second_source(scene, text, overrides, *wanted);
+    return read_scene(source.text, source.file, source.overrides);
 }
 
 std::optional<FilmedSecond> simulate_second(const FilmScenes& scenes, const Motion& first,
                                             const Interrupt& interrupt, ProgressMode mode) {
-    if (!scenes.other) return std::nullopt;
+    if (!scenes.second) return std::nullopt;
     FilmedSecond second;
-    second.run.scene = *scenes.other;
+    second.run.scene = *scenes.second;
     second.run.view = scenes.view;
     second.run.differences = scenes.differences;
-    second.run.first_name = run_name(scenes.scene, *scenes.other);
-    second.run.second_name = run_name(*scenes.other, scenes.scene);
+    second.run.first_name = run_name(scenes.scene, *scenes.second);
+    second.run.second_name = run_name(*scenes.second, scenes.scene);
     if (second.run.first_name == second.run.second_name) second.run.second_name += " (other run)";
     check_runs(scenes.scene, second.run);
     SimulationResult result =
-        simulate_shown(*scenes.other, interrupt, mode, "s of the other run simulated");
+        simulate_shown(*scenes.second, interrupt, mode, "s of the other run simulated");
     second.motion_hash = result.motion.hash();
     second.report = std::move(result.report);
     second.run.ended_s = result.motion.duration;

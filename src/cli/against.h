@@ -7,7 +7,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/options.h"
-#include "render/two_runs.h"
+#include "render/runs/second_run.h"
 #include "sim/simulate.h"
 
 namespace carom {
@@ -25,19 +25,19 @@ void add_against_options(CLI::App& command, AgainstOptions& options);
 /// and picture, its own bodies and simulation.
 struct FilmScenes {
     Scene scene;
-    std::optional<Scene> other;
+    std::optional<Scene> second;  ///< empty where there is none
     AgainstView view = AgainstView::kGhost;
     std::vector<SceneDifference> differences;
 };
 
 /// Reads both and prints their diagnostics; empty when one is invalid (exit code 3). --set changes
-/// SCENE, and with it the other run where that is the same scene with values set.
+/// SCENE, and with it the second run where that is the same scene with values set.
 std::optional<FilmScenes> load_film_scenes(const std::string& path, const CommonOptions& options,
                                            const AgainstOptions& against);
 
-/// The other run of a scene that names one itself, for `carom check`; empty where it does not.
+/// The second run of a scene that names one itself, for `carom check`; empty where it does not.
 /// `text` and `overrides` are those that `scene` was read from.
-std::optional<SceneResult> read_other(const Scene& scene, const std::string& text,
+std::optional<SceneResult> read_second(const Scene& scene, const std::string& text,
                                       const std::vector<Override>& overrides);
 
 /// The simulated second run, ready for the painter, with what --stats says of it.

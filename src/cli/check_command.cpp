@@ -52,10 +52,10 @@ int check(const CheckOptions& options, const Interrupt& interrupt) {
         const std::string text = read_scene_text(path);
         SceneResult result = read_scene(text, path == "-" ? "<stdin>" : path, overrides);
         // A scene is as right as the run that it is shown against.
-        if (const auto other =
-                result.scene ? read_other(*result.scene, text, overrides) : std::nullopt;
-            other && !other->scene) {
-            result.diagnostics = other->diagnostics;
+        if (const auto second =
+                result.scene ? read_second(*result.scene, text, overrides) : std::nullopt;
+            second && !second->scene) {
+            result.diagnostics = second->diagnostics;
             result.scene.reset();
         }
         valid = valid && result.scene.has_value();

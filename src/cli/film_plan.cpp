@@ -4,19 +4,15 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <string_view>
 
 #include "core/failure.h"
-#include "scene/film_clock.h"
 
 namespace carom {
 
 namespace {
 
-/// A film of more frames than this is a mistake in duration, fps or speed.
-constexpr double kMostFrames = 1e9;
 /// What one run draws: 19 days of film at 60 frames a second, and days of work. More is a mistake,
 /// or is done in parts.
 constexpr std::int64_t kMostDrawn = 100'000'000;
@@ -59,21 +55,6 @@ void add_range(std::string_view part, std::int64_t count, const std::string& opt
 }
 
 }  // namespace
-
-std::int64_t frame_count(const Film& film, double duration) {
-    const double seconds = film_time(film, duration);
-    const double frames = std::ceil(seconds * film.fps.numerator / film.fps.denominator - 1e-9);
-    if (!(frames >= 1))
-        usage(fmt::format("the film is empty: it starts at {} s and the motion ends at {} s",
-                          film.start, duration));
-    if (frames > kMostFrames) usage(fmt::format("the film would have {:.3g} frames", frames));
-    return static_cast<std::int64_t>(frames);
-}
-
-double frame_time(const Film& film, std::int64_t frame) {
-    return motion_time(film,
-                       static_cast<double>(frame) * film.fps.denominator / film.fps.numerator);
-}
 
 FrameRanges parse_frames(const std::string& text, std::int64_t count) {
     std::vector<FrameRange> ranges;

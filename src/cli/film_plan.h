@@ -1,22 +1,13 @@
-// Which frames a film has, which of them are wanted, and which instant each one shows.
+// Which of a film's frames are wanted.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "cli/frame_ranges.h"
+#include "scene/frame_ranges.h"
 #include "scene/scene.h"
 
 namespace carom {
-
-/// ceil(T fps - 1e-9), T the film time at the end of the motion (scene/film_clock.h), which is
-/// (duration - start) / speed where the speed is constant: a last frame that would only repeat the
-/// end by rounding is left out.
-std::int64_t frame_count(const Film& film, double duration);
-
-/// What the film shows k / fps after its begin, in seconds of the motion: start + speed k / fps
-/// where the speed is constant.
-double frame_time(const Film& film, std::int64_t frame);
 
 /// "0-9,20-40:2,100-" out of `count` frames: inclusive ranges with an optional step.
 /// Throws Failure(kInput) when malformed or beyond the film.

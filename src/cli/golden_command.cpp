@@ -20,7 +20,7 @@
 #include "media/file_kind.h"
 #include "media/output_folder.h"
 #include "media/png.h"
-#include "render/offscreen.h"
+#include "render/gl/offscreen.h"
 #include "render/painter.h"
 
 namespace carom {
@@ -171,7 +171,7 @@ bool Stills::for_each(const std::string& path, const Use& use) {
     PainterOptions painting;
     painting.width_px = scene->film.width_px;
     painting.height_px = scene->film.height_px;
-    painting.against = second ? &second->run : nullptr;
+    painting.second = second ? &second->run : nullptr;
     painting.few_pictures =
         draws_sooner_than_it_compiles(painting.width_px, painting.height_px, times.size());
     if (!contexts_) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/distinct_files.h"
-#include "cli/frame_ranges.h"
 #include "media/frame_sink.h"
+#include "scene/frame_ranges.h"
 #include "scene/scene.h"
 
 namespace carom {

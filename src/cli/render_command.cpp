@@ -1,7 +1,6 @@
 // carom render: from a scene to a film or to PNG frames.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -26,6 +25,8 @@
 #include "media/film_format.h"
 #include "media/output_file.h"
 #include "render/painter.h"
+#include "report/filming.h"
+#include "scene/film_clock.h"
 
 namespace carom {
 
@@ -110,21 +111,14 @@ bool Filming::has_film() const {
 
 void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
     Progress progress(options_.common.progress_mode(), interrupt_, "frames", frames_.size());
-    Image picture;
-    for (const std::int64_t frame : frames_) {
-        if (interrupt_.requested()) return;
-        const auto paint = [&] { painter.paint(frame_time(film, frame), picture); };
-        if (kept != nullptr)
-            kept->step(paint);
-        else
-            paint();
-        for (std::size_t i = 0; i + 1 < sinks_.size(); ++i) sinks_[i]->write(frame, picture);
-        // The driver has compiled its shaders by now: tens of megabytes that only the compiler
-        // needed go back before the encoder grows.
-        if (done_ == 0) malloc_trim(0);
-        sinks_.back()->write_swapped(frame, picture);  // nobody else needs it: no copy
-        progress.update(static_cast<double>(++done_));
-    }
+    FilmingHooks hooks;
+    hooks.stops = [this] { return interrupt_.requested(); };
+    if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
+    hooks.written = [&](std::int64_t done) {
+        done_ = done;
+        progress.update(static_cast<double>(done));
+    };
+    film_frames(painter, film, frames_, sinks_, hooks);
 }
 
 /// Keeps what is playable and says how far it got.
@@ -164,10 +158,10 @@ int nothing_to_do(const RenderOptions& options) {
     return kExitDone;
 }
 
-/// The other run's scene may be named by the scene itself, which has to be read to know.
-void require_other_untouched(const RenderOptions& options, const std::string& other) {
+/// The second run's scene may be named by the scene itself, which has to be read to know.
+void require_second_untouched(const RenderOptions& options, const std::string& second_scene) {
     check_output_names(requests(options), {{"--stats", options.common.stats_path}},
-                       {{"against", other}});
+                       {{"against", second_scene}});
 }
 
 int render(const RenderOptions& options, const Interrupt& interrupt) {
@@ -185,7 +179,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     const Scene* scene = &scenes->scene;
     check_transparency(requests(options), *scene);
     check_films(requests(options), *scene, options.encoding);
-    if (scenes->other) require_other_untouched(options, scenes->other->file);
+    if (scenes->second) require_second_untouched(options, scenes->second->file);
     if (is_done_early(options, *scene)) return nothing_to_do(options);
     if (!options.dry_run) prepare_folders(requests(options));
 

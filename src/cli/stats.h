@@ -9,7 +9,7 @@
 #include "cli/against.h"
 #include "media/frame_sink.h"
 #include "render/painter.h"
-#include "render/rebound_verdict.h"
+#include "render/runs/rebound_verdict.h"
 #include "sim/simulate.h"
 
 namespace carom {

@@ -23,7 +23,7 @@
 #include "core/failure.h"
 #include "media/output_file.h"
 #include "media/png.h"
-#include "render/offscreen.h"
+#include "render/gl/offscreen.h"
 #include "render/painter.h"
 
 namespace carom {
@@ -84,9 +84,9 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     }
     if (!scenes) return kExitInvalidScene;
     const Scene* scene = &scenes->scene;
-    if (scenes->other)
+    if (scenes->second)
         require_distinct({{"-o", options.output}, {"--stats", options.common.stats_path}},
-                         {{"against", scenes->other->file}});
+                         {{"against", scenes->second->file}});
 
     SimulationResult simulated;
     std::optional<FilmedSecond> second;
@@ -109,7 +109,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     PainterOptions painting;
     painting.width_px = scene->film.width_px;
     painting.height_px = scene->film.height_px;
-    painting.against = second ? &second->run : nullptr;
+    painting.second = second ? &second->run : nullptr;
     painting.few_pictures = draws_sooner_than_it_compiles(painting.width_px, painting.height_px);
     if (painting.few_pictures) prefer_quick_compile();
     painting.only_at = options.time;

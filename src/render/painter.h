@@ -3,33 +3,16 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/image.h"
 #include "motion/motion.h"
+#include "render/picture/options.h"
+#include "render/picture/picture.h"
 #include "scene/scene.h"
 
 namespace carom {
-
-struct DrawingContexts;
-struct PicturePart;
-struct SecondRun;
-
-struct PainterOptions {
-    int width_px = 1280;
-    int height_px = 720;
-    const SecondRun* against = nullptr;  ///< a run to show with the first; must outlive the painter
-    const PicturePart* part = nullptr;   ///< this is half of a picture (render/side_by_side.h)
-    /// To draw with, shared with other painters of the thread; of its own if there is none.
-    std::shared_ptr<DrawingContexts> contexts = {};
-    bool few_pictures = false;  ///< programs that compile soon rather than draw fast; same pixels
-    std::optional<double> only_at =
-        {};  ///< s: no other instant will be painted last (paint_strobe())
-};
-
-class SideBySide;
 
 /// Has an offscreen context; use it from the thread that made it. `scene` and `motion` must
 /// outlive it. Everything that can fail (context, shaders, framebuffer, fonts) fails in the
@@ -54,21 +37,15 @@ class Painter {
     std::string renderer() const;
 
     /// What is drawn and why, for --stats: shadows, markings, ruler, clock, labels, trail, ...
-    struct DrawnEffect {
-        bool on = false;
-        std::string why;
-    };
     std::map<std::string, DrawnEffect> effects() const;
 
     /// CPU seconds since construction, for --stats: of the calling thread and of the driver's own
-    /// rasteriser threads (render/driver_clock.h). Drawing includes the overlay and the set-up.
+    /// rasteriser threads (render/gl/driver_clock.h). Drawing includes the overlay and the set-up.
     double draw_cpu_s() const;
     double read_cpu_s() const;
 
   private:
-    class Impl;
-    std::unique_ptr<Impl> impl_;          ///< of a single picture
-    std::unique_ptr<SideBySide> halves_;  ///< of two
+    std::unique_ptr<Picture> picture_;
 };
 
 }  // namespace carom

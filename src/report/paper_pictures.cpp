@@ -12,6 +12,7 @@
 #include "media/threaded_sink.h"
 #include "render/painter.h"
 #include "report/embedded_scenes.h"
+#include "report/filming.h"
 #include "scene/film_clock.h"
 #include "scene/reader.h"
 #include "sim/simulate.h"
@@ -39,24 +40,17 @@ void film_motion(const PaperRun& run, const std::string& path, Existing existing
     options.fps_denominator = film.fps.denominator;
     options.title = run.scene.title;
     options.existing = existing;
-    const auto sink = make_threaded_sink(make_film_writer(path, options), 1);
+    std::vector<std::unique_ptr<FrameSink>> sinks;
+    sinks.push_back(make_threaded_sink(make_film_writer(path, options), 1));
     Painter painter(run.scene, run.motion, {film.width_px, film.height_px});
-
-    // As in a film of `carom render`: the end itself only where it is not rounding.
-    const double seconds = film_time(film, run.motion.duration);
-    const auto frames =
-        static_cast<std::int64_t>(std::ceil(seconds * film.fps.per_second() - 1e-9));
-    Image picture;
-    for (std::int64_t k = 0; k < frames; ++k) {
-        if (stop.stop_requested()) {
-            sink->keep_partial();
-            throw Failure(FailureKind::kRun, "interrupted while filming " + path);
-        }
-        const double in_film = static_cast<double>(k) * film.fps.denominator / film.fps.numerator;
-        painter.paint(motion_time(film, in_film), picture);
-        sink->write_swapped(k, picture);
+    const FrameRanges frames = FrameRanges::all(frame_count(film, run.motion.duration));
+    FilmingHooks hooks;
+    hooks.stops = [&stop] { return stop.stop_requested(); };
+    if (film_frames(painter, film, frames, sinks, hooks) < frames.size()) {
+        sinks.front()->keep_partial();
+        throw Failure(FailureKind::kRun, "interrupted while filming " + path);
     }
-    sink->finish();
+    sinks.front()->finish();
 }
 
 Image figure8_picture(const PaperRun& run) {

@@ -1,7 +1,11 @@
 #include "scene/film_clock.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "core/failure.h"
 
 namespace carom {
 
@@ -79,6 +83,25 @@ double film_time(const Film& film, double motion_s) {
         return left > 0;
     });
     return s;
+}
+
+std::int64_t frame_count(const Film& film, double duration) {
+    constexpr double kMost = 1e9;  // more is a mistake in duration, fps or speed
+    const double seconds = film_time(film, duration);
+    const double frames = std::ceil(seconds * film.fps.numerator / film.fps.denominator - 1e-9);
+    if (!(frames >= 1))
+        throw Failure(
+            FailureKind::kInput,
+            fmt::format("the film is empty: it starts at {} s and the motion ends at {} s",
+                        film.start, duration));
+    if (frames > kMost)
+        throw Failure(FailureKind::kInput,
+                      fmt::format("the film would have {:.3g} frames", frames));
+    return static_cast<std::int64_t>(frames);
+}
+
+double frame_time(const Film& film, std::int64_t k) {
+    return motion_time(film, static_cast<double>(k) * film.fps.denominator / film.fps.numerator);
 }
 
 }  // namespace carom

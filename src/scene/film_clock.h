@@ -1,5 +1,7 @@
-// Film time and motion time: which instant of the motion a film shows, and when.
+// Film time and motion time: which instant of the motion a film shows, and when; its frames.
 #pragma once
+
+#include <cstdint>
 
 #include "scene/scene.h"
 
@@ -15,5 +17,13 @@ double film_time(const Film& film, double motion_s);
 
 /// v at an instant of the motion.
 double film_speed(const Film& film, double motion_s);
+
+/// How many frames a film of a motion of `duration` seconds has: ceil(T fps - 1e-9), T the film
+/// time at the motion's end. A last frame that would only repeat the end by rounding is left out.
+/// Failure(kInput) for a film without frames, or with more than 1e9.
+std::int64_t frame_count(const Film& film, double duration);
+
+/// The instant of the motion [s] that frame k shows, which is k / fps after the first one.
+double frame_time(const Film& film, std::int64_t k);
 
 }  // namespace carom

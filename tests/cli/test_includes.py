@@ -1,8 +1,11 @@
-"""The includes follow the flow: scene -> sim -> motion -> render -> media, core below, cli on top."""
+"""The includes follow the flow: scene -> sim -> motion -> render -> media, core below, cli on top;
+and inside a folder that has rooms, the arrows between these."""
 
+import graphlib
 import os
 import pathlib
 import re
+import tempfile
 import unittest
 
 SOURCE = pathlib.Path(os.environ["CAROM_SOURCE_DIR"]) / "src"
@@ -20,8 +23,8 @@ MAY_INCLUDE = {
     "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
 }
 
-# Of a folder that has rooms: room -> rooms of the same folder that it may include. Files outside of
-# rooms are what the folder offers: they may include all of them, and no room includes them.
+# Folder -> its rooms -> the rooms that each may include, besides itself. What lies beside the rooms
+# is the folder's door: it may include all of them, and none of them includes it.
 ROOMS = {
     "sim": {
         "math": set(),
@@ -37,8 +40,25 @@ ROOMS = {
         "exact": {"collide", "group", "integrate", "law", "math", "record", "solve",
                   "world"},
     },
+    "render": {
+        "gl": set(),
+        "draw2d": set(),
+        "runs": {"draw2d"},
+        "view": {"runs"},
+        "tile": {"view"},
+        "blend": {"gl", "tile"},
+        "element": {"draw2d", "runs", "view"},
+        "marks": {"draw2d", "element", "runs", "view"},
+        "plates": {"draw2d", "element", "runs", "view"},
+        "overlay": {"draw2d", "element", "marks", "plates"},
+        "background": {"blend", "gl", "tile", "view"},
+        "balls": {"background", "blend", "gl", "runs", "tile", "view"},
+        "picture": {"background", "balls", "blend", "draw2d", "element", "gl", "overlay", "runs",
+                    "tile", "view"},
+    },
 }
-MOST_FILES = 22  # of a room
+
+MOST_FILES_OF_A_ROOM = 22
 
 # Header of a third-party library -> the folders that may name it.
 LIBRARY_HOME = {
@@ -54,21 +74,58 @@ LIBRARY_HOME = {
 }
 
 
-def includes():
-    """(folder, file, kind, path) of every #include line; kind is '"' or '<'."""
-    for file in sorted(SOURCE.rglob("*")):
-        if file.suffix not in (".h", ".cpp"):
-            continue
+def sources(root):
+    return [f for f in sorted(root.rglob("*")) if f.suffix in (".h", ".cpp")]
+
+
+def includes(root=SOURCE):
+    """(file below root, kind, path) of every #include line; kind is '"' or '<'."""
+    for file in sources(root):
         for match in re.finditer(r'^\s*#include ([<"])([^>"]+)[>"]', file.read_text(), re.M):
-            yield file.relative_to(SOURCE).parts[0], file, match[1], match[2]
+            yield file.relative_to(root), match[1], match[2]
 
 
-def room_includes(folder):
-    """(file, path) of every include of a room's file that names a file of the same folder."""
-    for of, file, kind, path in includes():
-        in_room = len(file.relative_to(SOURCE / folder).parts) > 1 if of == folder else False
-        if in_room and kind == '"' and path.startswith(f"{folder}/"):
-            yield file, path
+def room_of(path, rooms):
+    """The room of a file below src; '' beside the rooms or in a folder without any."""
+    parts = pathlib.PurePath(path).parts
+    return parts[1] if parts[0] in rooms and len(parts) > 2 else ""
+
+
+def faults_of_rooms(root, rooms, most_files):
+    """Sentences on what breaks the rules of rooms in the tree below root."""
+    faults = []
+    for folder in sorted(p.name for p in root.iterdir() if p.is_dir()):
+        found = {p.name for p in (root / folder).iterdir() if p.is_dir() and sources(p)}
+        wanted = set(rooms.get(folder, {}))
+        faults += [f"{folder}/{name} is not in the table" for name in sorted(found - wanted)]
+        faults += [f"{folder}/{name} is in the table only" for name in sorted(wanted - found)]
+        for name in sorted(found & wanted):
+            files = sources(root / folder / name)
+            if len(files) > most_files:
+                faults.append(f"{folder}/{name} has {len(files)} files, at most {most_files}")
+            faults += [f"{file} lies deeper than a room" for file in files
+                       if file.parent != root / folder / name]
+    for folder, arrows in rooms.items():
+        try:
+            list(graphlib.TopologicalSorter(arrows).static_order())
+        except graphlib.CycleError as circle:
+            faults.append(f"{folder}: a circle of rooms: {' - '.join(circle.args[1])}")
+    of_file = {}
+    for file, kind, path in includes(root):
+        if kind != '"':
+            continue
+        of_file.setdefault(str(file), set()).add(path)
+        folder = file.parts[0]
+        if folder not in rooms or not path.startswith(folder + "/"):
+            continue
+        here, there = room_of(file, rooms), room_of(path, rooms)
+        if here and here != there and there not in rooms[folder].get(here, set()):
+            faults.append(f"{file} must not include {path}")
+    try:
+        list(graphlib.TopologicalSorter(of_file).static_order())
+    except graphlib.CycleError as circle:
+        faults.append(f"a circle of files: {' - '.join(circle.args[1])}")
+    return faults
 
 
 class Includes(unittest.TestCase):
@@ -78,51 +135,76 @@ class Includes(unittest.TestCase):
 
     def test_own_includes_follow_the_flow(self):
         found = 0
-        for folder, file, kind, path in includes():
+        for file, kind, path in includes():
             if kind != '"':
                 continue
             found += 1
-            target = path.split("/")[0]
+            folder, target = file.parts[0], path.split("/")[0]
             self.assertIn(target, MAY_INCLUDE[folder] | {folder}, f"{file}: {path}")
             self.assertTrue((SOURCE / path).is_file(), f"{file}: {path}")
         self.assertGreater(found, 50)
 
-    def test_rooms_include_what_they_may(self):
-        for folder, table in ROOMS.items():
-            rooms = {p.name for p in (SOURCE / folder).iterdir() if p.is_dir()}
-            self.assertEqual(rooms - {"shaders", "fonts"}, set(table), folder)
-            used = set()
-            for file, path in room_includes(folder):
-                room = file.relative_to(SOURCE / folder).parts[0]
-                inner = path.split("/")
-                self.assertEqual(len(inner), 3, f"{file}: {path} is in no room")
-                used.add((room, inner[1]))
-                self.assertIn(inner[1], table[room] | {room}, f"{file}: {path}")
-            allowed = {(room, other) for room, others in table.items() for other in others}
-            self.assertEqual(allowed - used, set(), f"{folder}: nobody uses these arrows")
+    def test_rooms_follow_their_arrows(self):
+        self.assertEqual([], faults_of_rooms(SOURCE, ROOMS, MOST_FILES_OF_A_ROOM))
 
-    def test_rooms_have_no_circle(self):
-        for folder, table in ROOMS.items():
-            left = {room: set(others) for room, others in table.items()}
-            while free := [room for room, others in left.items() if not others & set(left)]:
-                for room in free:
-                    del left[room]
-            self.assertEqual(left, {}, f"{folder}: rooms that include each other in a circle")
-
-    def test_rooms_are_small(self):
-        for folder, table in ROOMS.items():
-            for room in table:
-                files = [p for p in (SOURCE / folder / room).iterdir() if p.is_file()]
-                self.assertLessEqual(len(files), MOST_FILES, f"{folder}/{room}")
+    def test_every_arrow_between_rooms_is_used(self):
+        used = {(file.parts[0], room_of(file, ROOMS), room_of(path, ROOMS))
+                for file, kind, path in includes() if kind == '"'}
+        for folder, arrows in ROOMS.items():
+            for here, others in arrows.items():
+                for there in others:
+                    self.assertIn((folder, here, there), used)
 
     def test_libraries_are_named_at_home(self):
         found = set()
-        for folder, file, kind, path in includes():
+        for file, kind, path in includes():
             for pattern, home in LIBRARY_HOME.items():
                 if kind == "<" and re.match(pattern, path):
                     found.add(pattern)
-                    self.assertIn(folder, home, f"{file}: {path}")
+                    self.assertIn(file.parts[0], home, f"{file}: {path}")
         self.assertEqual(found, set(LIBRARY_HOME))
+
+
+class FaultsAreFound(unittest.TestCase):
+    """The rules of rooms, on trees that break one of them each."""
+
+    ROOMS = {"house": {"low": set(), "high": {"low"}}}
+
+    def faults(self, files, rooms=None, most=2):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, included in {"house/low/a.h": "", "house/high/b.h": "house/low/a.h",
+                                   "house/door.h": "house/high/b.h", **files}.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(f'#include "{included}"\n' if included else "")
+            return faults_of_rooms(root, rooms or self.ROOMS, most)
+
+    def test_a_sound_tree_has_none(self):
+        self.assertEqual([], self.faults({"house/data/c.txt": ""}))
+
+    def test_an_include_against_the_arrow(self):
+        self.assertEqual(["house/low/c.cpp must not include house/high/b.h"],
+                         self.faults({"house/low/c.cpp": "house/high/b.h"}))
+
+    def test_an_include_of_the_door(self):
+        self.assertEqual(["house/low/c.cpp must not include house/door.h"],
+                         self.faults({"house/low/c.cpp": "house/door.h"}))
+
+    def test_circles(self):
+        rooms = {"house": {"low": {"high"}, "high": {"low"}}}
+        self.assertIn("a circle of rooms", self.faults({}, rooms)[0])
+        self.assertIn("a circle of files", self.faults(
+            {"house/low/c.h": "house/low/a.h", "house/low/a.h": "house/low/c.h"})[0])
+
+    def test_a_crowded_room(self):
+        self.assertEqual(["house/low has 3 files, at most 2"],
+                         self.faults({"house/low/c.h": "", "house/low/d.h": ""}))
+
+    def test_rooms_and_table_differ(self):
+        self.assertEqual(["house/new is not in the table"], self.faults({"house/new/c.h": ""}))
+        self.assertEqual(["house/old is in the table only"],
+                         self.faults({}, {"house": {**self.ROOMS["house"], "old": set()}}))
+        self.assertIn("lies deeper", self.faults({"house/low/deep/c.h": ""})[0])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // Cameras that move: the view at an instant against closed forms, and the same picture whatever
 // was drawn before.
-#include "render/camera_motion.h"
+#include "render/view/camera_motion.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The projection, and the camera that is framed around a motion.
-#include "render/camera.h"
+#include "render/view/camera.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/framing.h"
+#include "render/view/framing.h"
 #include "sample_motions.h"
 
 namespace carom {

@@ -1,5 +1,5 @@
 // Balls that may shade one another are found without asking each.
-#include "render/caster_cells.h"
+#include "render/balls/caster_cells.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

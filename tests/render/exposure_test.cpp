@@ -1,5 +1,5 @@
 // Motion blur: which instants, and the mean of them against one taken picture by picture.
-#include "render/exposure.h"
+#include "render/view/exposure.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <array>
 
 #include "hand_made_scene.h"
-#include "render/exposure_groups.h"
+#include "render/picture/exposure_groups.h"
 #include "scene/film_clock.h"
 
 namespace carom {

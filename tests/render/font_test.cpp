@@ -1,5 +1,5 @@
 // The font inside the program: its outlines, and text drawn with them.
-#include "render/font.h"
+#include "render/draw2d/font.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-#include "render/embedded_font.h"
-#include "render/typeface.h"
+#include "render/draw2d/embedded_font.h"
+#include "render/draw2d/typeface.h"
 
 namespace carom {
 namespace {

@@ -1,12 +1,12 @@
 // Programs with equal texts are one for the driver, and still each has its own uniforms.
-#include "render/gl_program.h"
+#include "render/gl/gl_program.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>
 
-#include "render/offscreen.h"
+#include "render/gl/offscreen.h"
 
 namespace carom {
 namespace {

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "hand_made_scene.h"
-#include "render/balls_in_view.h"
-#include "render/lights.h"
+#include "render/balls/balls_in_view.h"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 // Ruler, clock and fonts.
-#include "render/overlay.h"
+#include "render/overlay/overlay.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/font.h"
-#include "render/overlay_clock.h"
-#include "render/overlay_ruler.h"
+#include "render/draw2d/font.h"
+#include "render/marks/ruler.h"
+#include "render/plates/clock.h"
 #include "sample_views.h"
 
 namespace carom {
 namespace {
 
-using Rect = OverlayPainter::Rect;
 using namespace samples;
 
 // ---- Nothing, and fonts ------------------------------------------------------------------------
@@ -23,10 +22,10 @@ using namespace samples;
 TEST(Overlay, DrawsNothingWhenNothingIsAsked) {
     const Sample sample = five_balls();
     OverlayPainter overlay(sample.scene, sample.motion, view_of(sample, {320, 180}));
-    EXPECT_EQ(overlay.static_under_layer().width_px, 0);
-    EXPECT_FALSE(overlay.has_moving_under_layer());
-    EXPECT_TRUE(overlay.update_moving_under_layer(1).empty());
-    EXPECT_EQ(overlay.moving_under_layer().width_px, 0);
+    EXPECT_EQ(overlay.background_layer().width_px, 0);
+    EXPECT_FALSE(overlay.has_moving_layer());
+    EXPECT_TRUE(overlay.update_moving_layer(1).empty());
+    EXPECT_EQ(overlay.moving_layer().width_px, 0);
     Image picture(320, 180);
     std::fill(picture.bgra.begin(), picture.bgra.end(), std::uint8_t{137});
     const Image before = picture;
@@ -41,9 +40,9 @@ TEST(Overlay, DrawsWhatIsAsked) {
     const auto drawn = [](const Image& picture) {
         return std::count_if(picture.bgra.begin(), picture.bgra.end(), [](int v) { return v > 0; });
     };
-    EXPECT_GT(drawn(overlay.static_under_layer()), 1000);
-    EXPECT_FALSE(overlay.update_moving_under_layer(1).empty());
-    EXPECT_GT(drawn(overlay.moving_under_layer()), 1000);
+    EXPECT_GT(drawn(overlay.background_layer()), 1000);
+    EXPECT_FALSE(overlay.update_moving_layer(1).empty());
+    EXPECT_GT(drawn(overlay.moving_layer()), 1000);
     Image picture(640, 360);
     overlay.draw_over(1, picture);
     EXPECT_GT(drawn(picture), 5000);
@@ -72,7 +71,9 @@ TEST(Ruler, UnitIsNeverCutOff) {
         layout.high_px = {100, top_px};
         layout.ticks = {{0, layout.low_px, TickRank::kMajor, "0"},
                         {3, layout.high_px, TickRank::kMajor, "3"}};
-        return draw_ruler(layout, view, font);
+        Image picture(320, 180);
+        draw_ruler(layout, view, font, {}, picture);
+        return picture;
     };
     const auto inked = [](const Image& picture, int x0, int x1, int y0, int y1) {
         int count = 0;
@@ -162,7 +163,7 @@ TEST(Ruler, LiesInsideTheFramedPicture) {
     sample.scene.overlay.ruler = RulerOptions{};
     for (const Size& size : kSizes) {
         const OverlayPainter overlay(sample.scene, sample.motion, view_of(sample, size));
-        const Image picture = overlay.static_under_layer();
+        const Image picture = overlay.background_layer();
         ASSERT_EQ(picture.width_px, size.width);
         int least_x = size.width, least_y = size.height, most_y = 0;
         for (int y = 0; y < size.height; ++y) {
@@ -236,17 +237,17 @@ TEST(Ruler, AnEndlessStaffHasAsManyTicksAsThePictureHolds) {
 // ---- The clock ---------------------------------------------------------------------------------
 
 TEST(Clock, TextHasTheDigitsAskedFor) {
-    const OverlayClock clock(ClockOptions{Corner::kTopLeft, 2}, 12.5, 1280, 720);
+    ClockElement clock(ClockOptions{Corner::kTopLeft, 2}, 12.5, 1280, 720);
     EXPECT_EQ(clock.text(0), "0.00");
     EXPECT_EQ(clock.text(1.25), "1.25");
     EXPECT_EQ(clock.text(12.5), "12.50");
     EXPECT_EQ(clock.text(-1e-17), "0.00");
-    const OverlayClock whole(ClockOptions{Corner::kTopLeft, 0}, 9, 1280, 720);
+    const ClockElement whole(ClockOptions{Corner::kTopLeft, 0}, 9, 1280, 720);
     EXPECT_EQ(whole.text(3.2), "3");
 }
 
 /// Columns that the clock covers at t.
-std::pair<int, int> covered(const OverlayClock& clock, double t) {
+std::pair<int, int> covered(ClockElement& clock, double t) {
     Image picture(1280, 720);
     clock.draw(t, picture);
     int least = 1280, most = -1;
@@ -258,19 +259,19 @@ std::pair<int, int> covered(const OverlayClock& clock, double t) {
 
 TEST(Clock, WidthChangesOnlyWithTheNumberOfDigits) {
     for (const Corner corner : {Corner::kTopLeft, Corner::kTopRight}) {
-        const OverlayClock clock(ClockOptions{corner, 2}, 10, 1280, 720);
+        ClockElement clock(ClockOptions{corner, 2}, 10, 1280, 720);
         const auto first = covered(clock, 0);
         for (const double t : {1.11, 4.44, 9.99}) EXPECT_EQ(covered(clock, t), first);
         const auto [least, most] = covered(clock, 10);
         fmt::print("columns {} to {}, at 10 s {} to {}\n", first.first, first.second, least, most);
         EXPECT_GT(most - least, first.second - first.first + 5);
-        EXPECT_EQ(clock.rect().x, least);
-        EXPECT_EQ(clock.rect().width, most - least + 1);
+        EXPECT_EQ(clock.rect().left, least);
+        EXPECT_EQ(clock.rect().width(), most - least + 1);
     }
 }
 
 TEST(Clock, OnlyTheDigitThatChangesChangesPixels) {
-    const OverlayClock clock(ClockOptions{}, 4, 1280, 720);
+    ClockElement clock(ClockOptions{}, 4, 1280, 720);
     Image before(1280, 720), after(1280, 720);
     clock.draw(1.21, before);
     clock.draw(1.27, after);
@@ -291,13 +292,13 @@ TEST(Clock, StandsInItsCorner) {
     for (const Size& size : kSizes) {
         for (const Corner corner :
              {Corner::kTopLeft, Corner::kTopRight, Corner::kBottomLeft, Corner::kBottomRight}) {
-            const OverlayClock clock(ClockOptions{corner, 3}, 4, size.width, size.height);
-            const Rect r = clock.rect();
+            ClockElement clock(ClockOptions{corner, 3}, 4, size.width, size.height);
+            const PixelRect r = clock.rect();
             EXPECT_TRUE(inside(r, size));
             const bool left = corner == Corner::kTopLeft || corner == Corner::kBottomLeft;
             const bool top = corner == Corner::kTopLeft || corner == Corner::kTopRight;
-            EXPECT_EQ(r.x + r.width / 2 < size.width / 2, left);
-            EXPECT_EQ(r.y + r.height / 2 < size.height / 2, top);
+            EXPECT_EQ(r.left + r.width() / 2 < size.width / 2, left);
+            EXPECT_EQ(r.top + r.height() / 2 < size.height / 2, top);
         }
     }
 }

@@ -8,8 +8,8 @@
 
 #include "core/failure.h"
 #include "hand_made_scene.h"
-#include "render/lights.h"
-#include "render/offscreen.h"
+#include "render/gl/offscreen.h"
+#include "render/view/lights.h"
 
 namespace carom {
 namespace {

@@ -1,11 +1,11 @@
 // The drop test: its verdict, and where it is drawn.
-#include "render/rebound_verdict.h"
+#include "render/runs/rebound_verdict.h"
 
 #include <gtest/gtest.h>
 
 #include "hand_made_scene.h"
-#include "render/font.h"
-#include "render/overlay_verdict.h"
+#include "render/draw2d/font.h"
+#include "render/plates/verdict.h"
 
 namespace carom {
 namespace {
@@ -107,36 +107,35 @@ TEST(ReboundVerdict, ColourSaysIt) {
 // At the top, below what is written there; where a ruler stands in its way, at the bottom; and
 // where that one reaches down as well, in rows beside it. Never over the ruler while there is room.
 TEST(ReboundVerdict, PlateKeepsClearOfTheRuler) {
-    using Rect = OverlayPainter::Rect;
     constexpr int kWidth = 320, kHeight = 180;
     const HandMadeScene scene = tested(0.5, 2);
     const auto verdict = judge_rebound(scene.scene, scene.motion);
-    const Rect clock{5, 5, 60, 16};
-    const auto plate = [&](std::vector<Rect> taken) {
+    const PixelRect clock = PixelRect::at(5, 5, 60, 16);
+    const auto plate = [&](std::vector<PixelRect> taken) {
         taken.push_back(clock);
-        return OverlayVerdict(scene.scene, scene.motion, *verdict, kWidth, kHeight, {clock}, taken)
+        return VerdictElement(scene.scene, scene.motion, *verdict, kWidth, kHeight, {clock}, taken)
             .rect();
     };
-    const Rect top = plate({});
-    EXPECT_NEAR(kWidth, 2 * top.x + top.width, 1);
-    EXPECT_GT(top.y, clock.bottom());
-    EXPECT_LT(top.bottom(), 50);
+    const PixelRect top = plate({});
+    EXPECT_NEAR(kWidth, top.left + top.right, 1);
+    EXPECT_GT(top.top, clock.bottom);
+    EXPECT_LT(top.bottom, 50);
 
-    const Rect bottom = plate({{150, 0, 20, 120}});
-    EXPECT_EQ(top.width, bottom.width);
-    EXPECT_GT(bottom.y, 120);
-    EXPECT_LE(bottom.bottom(), kHeight);
+    const PixelRect bottom = plate({PixelRect::at(150, 0, 20, 120)});
+    EXPECT_EQ(top.width(), bottom.width());
+    EXPECT_GT(bottom.top, 120);
+    EXPECT_LE(bottom.bottom, kHeight);
 
-    const Rect whole_ruler{150, 0, 20, kHeight};
-    const Rect left = plate({whole_ruler});
-    EXPECT_LE(left.right(), 150);
-    EXPECT_GT(left.height, 3 * top.height);
-    EXPECT_GT(left.y, clock.bottom());
-    const Rect right = plate({whole_ruler, {0, 60, 150, 60}});
-    EXPECT_GE(right.x, 170);
-    EXPECT_LE(right.right(), kWidth);
+    const PixelRect whole_ruler = PixelRect::at(150, 0, 20, kHeight);
+    const PixelRect left = plate({whole_ruler});
+    EXPECT_LE(left.right, 150);
+    EXPECT_GT(left.height(), 3 * top.height());
+    EXPECT_GT(left.top, clock.bottom);
+    const PixelRect right = plate({whole_ruler, PixelRect::at(0, 60, 150, 60)});
+    EXPECT_GE(right.left, 170);
+    EXPECT_LE(right.right, kWidth);
 
-    EXPECT_EQ(top.y, plate({{0, 0, kWidth, kHeight}}).y) << "no room at all";
+    EXPECT_EQ(top.top, plate({{0, 0, kWidth, kHeight}}).top) << "no room at all";
 }
 
 }  // namespace

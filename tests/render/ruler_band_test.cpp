@@ -1,7 +1,7 @@
 // The marked part of the ruler.
 #include <gtest/gtest.h>
 
-#include "render/overlay_ruler.h"
+#include "render/marks/ruler.h"
 #include "sample_motions.h"
 
 namespace carom {
@@ -18,7 +18,9 @@ RulerLayout layout_with(const std::optional<std::array<double, 2>>& band) {
 }
 
 Image drawn(const std::optional<std::array<double, 2>>& band) {
-    return draw_ruler(layout_with(band), kView, Font(ruler_font_px(kView)));
+    Image picture(kView.width_px(), kView.height_px());
+    draw_ruler(layout_with(band), kView, Font(ruler_font_px(kView)), {}, picture);
+    return picture;
 }
 
 TEST(RulerBand, LiesBetweenItsHeights) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "core/image.h"
-#include "render/camera.h"
-#include "render/overlay.h"
+#include "render/overlay/overlay.h"
+#include "render/view/camera.h"
 #include "sample_motions.h"
 
 namespace carom::samples {
@@ -20,13 +20,8 @@ inline View view_of(const Sample& sample, const Size& size) {
     return View(choose_camera(sample.scene, sample.motion, aspect), size.width, size.height);
 }
 
-inline bool overlap(const OverlayPainter::Rect& a, const OverlayPainter::Rect& b) {
-    return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
-           b.y < a.y + a.height;
-}
-
-inline bool inside(const OverlayPainter::Rect& r, const Size& size) {
-    return r.x >= 0 && r.y >= 0 && r.x + r.width <= size.width && r.y + r.height <= size.height;
+inline bool inside(const PixelRect& r, const Size& size) {
+    return r.left >= 0 && r.top >= 0 && r.right <= size.width && r.bottom <= size.height;
 }
 
 inline int alpha_at(const Image& picture, int x, int y) { return picture.row(y)[4 * x + 3]; }

@@ -8,7 +8,7 @@
 
 #include "edge_quality.h"
 #include "hand_made_scene.h"
-#include "render/balls_in_view.h"
+#include "render/balls/balls_in_view.h"
 
 namespace carom {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hand_made_scene.h"
-#include "render/alpha_encoding.h"
-#include "render/camera.h"
+#include "render/blend/alpha_encoding.h"
+#include "render/view/camera.h"
 
 namespace carom {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/failure.h"
 #include "scene_testing.h"
 
 namespace carom {
@@ -24,6 +25,23 @@ TEST(FilmClock, ConstantSpeedIsTheStraightLine) {
     film.speed = 0.25;
     EXPECT_EQ(motion_time(film, 2.0), 0.3 + 0.25 * 2.0);
     EXPECT_EQ(film_time(film, 1.3), (1.3 - 0.3) / 0.25);
+}
+
+TEST(FilmClock, AFilmHasNoFrameThatRoundingAdds) {
+    Film film;
+    film.fps = {10, 1};
+    EXPECT_EQ(20, frame_count(film, 2.0)) << "the end itself is not shown once more";
+    EXPECT_EQ(20, frame_count(film, 2.0 + 1e-12));
+    EXPECT_EQ(21, frame_count(film, 2.001));
+    EXPECT_EQ(1, frame_count(film, 1e-3));
+    film.start = 0.5;
+    film.speed = 0.25;
+    EXPECT_EQ(60, frame_count(film, 2.0));
+    EXPECT_EQ(0.5 + 0.25 * 0.7, frame_time(film, 7));
+    film.fps = {30000, 1001};
+    EXPECT_EQ(0.5 + 0.25 * (30000.0 * 1001 / 30000), frame_time(film, 30000));
+    EXPECT_THROW(frame_count(film, 0.5), Failure);
+    EXPECT_THROW(frame_count(film, 1e9), Failure);
 }
 
 TEST(FilmClock, ARampTakesTheLogarithmOfTheSpeeds) {

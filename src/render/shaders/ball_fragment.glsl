@@ -6,13 +6,13 @@
 
 uniform samplerBuffer u_casters;
 #ifdef OCCLUDED
-uniform usampler2D u_facts;  // static_picture.h
+uniform usampler2D u_g_buffer;  // background_picture.h
 uniform sampler2D u_front;
 #endif
 
 #ifdef MIRRORED
 uniform int u_is_image;      // 1: what is drawn are images in a mirror; 0: the balls themselves
-uniform sampler2D u_mirror;  // static_picture.h
+uniform sampler2D u_mirror;  // background_picture.h
 uniform vec3 u_mirror_normal;
 uniform float u_mirror_offset;
 #endif
@@ -187,10 +187,10 @@ void main() {
     const bool is_image = false;
 #endif
 #ifdef OCCLUDED
-    uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
-    float front_part = float(facts.z >> 20) / 1023.0;
-    if (!is_image && depth > uintBitsToFloat(facts.y)) discard;
-    if (!is_image && depth > uintBitsToFloat(facts.x)) {
+    uvec4 g_buffer = texelFetch(u_g_buffer, ivec2(gl_FragCoord.xy), 0);
+    float front_part = float(g_buffer.z >> 20) / 1023.0;
+    if (!is_image && depth > uintBitsToFloat(g_buffer.y)) discard;
+    if (!is_image && depth > uintBitsToFloat(g_buffer.x)) {
         // Within an edge of a body before the ball: the body keeps its share of the pixel.
 #ifdef GHOST
         seen *= 1.0 - front_part;

@@ -3,7 +3,7 @@
 // In the order in which ball_fragment.glsl has them: llvmpipe counts what the program before has
 // bound in a buffer's place as part of a shader, and would compile again.
 uniform samplerBuffer u_casters;
-uniform usampler2D u_facts;  // static_picture.h
+uniform usampler2D u_g_buffer;  // background_picture.h
 
 flat in ivec2 v_list;  // first caster, number of casters
 
@@ -21,19 +21,19 @@ vec3 unpacked_normal(uint bits) {
 }
 
 void main() {
-    uvec4 facts = texelFetch(u_facts, ivec2(gl_FragCoord.xy), 0);
+    uvec4 g_buffer = texelFetch(u_g_buffer, ivec2(gl_FragCoord.xy), 0);
     vec3 d = ray_through(gl_FragCoord.xy), start = ray_start(gl_FragCoord.xy);
-    vec3 n = unpacked_normal(facts.w);
-    float direct = float(facts.z & 1023u) / 1023.0;
-    float ambient = float((facts.z >> 10) & 1023u) / 1023.0;
-    float front_part = float(facts.z >> 20) / 1023.0;
+    vec3 n = unpacked_normal(g_buffer.w);
+    float direct = float(g_buffer.z & 1023u) / 1023.0;
+    float ambient = float((g_buffer.z >> 10) & 1023u) / 1023.0;
+    float front_part = float(g_buffer.z >> 20) / 1023.0;
 
     // Where an edge passes, both layers take their share; elsewhere there is one.
     float factor = 1.0;
-    int layers = facts.x == facts.y ? 1 : 2;
+    int layers = g_buffer.x == g_buffer.y ? 1 : 2;
     int layer = 0;
     do {  // leaving at the end, as in surfaces.glsl
-        float t = uintBitsToFloat(layer == 0 ? facts.x : facts.y);
+        float t = uintBitsToFloat(layer == 0 ? g_buffer.x : g_buffer.y);
         float part = layers == 1 ? 1.0 : (layer == 0 ? front_part : 1.0 - front_part);
         if (t > 1e29) continue;  // the sky
         vec3 p = start + t * d;

@@ -7,7 +7,7 @@
 uniform samplerBuffer u_surfaces;
 uniform ivec4 u_counts;  // planes, boxes, spheres, capsules
 
-// Lists of bodies, part of the picture by part (body_tiles.h): first entry, then where the entries of
+// Lists of bodies, part of the picture by part (surface_tiles.h): first entry, then where the entries of
 // boxes, spheres and capsules end.
 uniform samplerBuffer u_listed;
 flat in ivec4 v_seen;     // bodies that rays may meet

@@ -1,0 +1,185 @@
+#include "render/background/background_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "render/background/common_uniforms.h"
+#include "render/background/plane_tiles.h"
+#include "render/gl/driver_clock.h"
+
+namespace carom {
+
+namespace {
+
+constexpr const char* kManyPlanes = "MANY_PLANES";  // they are listed
+
+/// Kinds of bodies, as bits.
+constexpr unsigned kBoxes = 1, kSpheres = 2, kCapsules = 4;
+
+unsigned bodies_in(const SurfaceTable& table) {
+    return (table.boxes > 0 ? kBoxes : 0U) | (table.spheres > 0 ? kSpheres : 0U) |
+           (table.capsules > 0 ? kCapsules : 0U);
+}
+
+/// Of the lists of a rectangle (SurfaceTiles): each has its first entry and the ends of its kinds.
+unsigned bodies_in(const float* rectangle) {
+    unsigned bodies = 0;
+    for (const int list : {4, 8})
+        for (const int kind : {0, 1, 2})
+            if (rectangle[list + kind + 1] > rectangle[list + kind]) bodies |= 1U << kind;
+    return bodies;
+}
+
+std::vector<std::string> defines_for(const View& view, const SurfaceTable& table,
+                                     const BackgroundKind& kind, unsigned bodies) {
+    std::vector<std::string> defines = view_defines(view);
+    if (table.planes > 0) defines.push_back("PLANES");
+    if (table.planes > kFewPlanes) defines.push_back(kManyPlanes);
+    if ((bodies & kBoxes) != 0) defines.push_back("BOXES");
+    if ((bodies & kSpheres) != 0) defines.push_back("SPHERES");
+    if ((bodies & kCapsules) != 0) defines.push_back("CAPSULES");
+    if (table.checker) defines.push_back("CHECKER");
+    if (table.grid) defines.push_back("GRID");
+    if (table.checker || table.grid || table.wood || table.court) defines.push_back("PATTERNED");
+    if (table.wood) defines.push_back("WOOD");
+    if (table.court) defines.push_back("COURT");
+    if (kind.occludes) defines.push_back("FRONT");
+    if (kind.mirrors) defines.push_back("REFLECTION");
+    if (kind.transparent) defines.push_back("TRANSPARENT");
+    // Parallel rays see where a plane ends that they meet edge-on.
+    if (table.count() > 1 || table.can_occlude() || view.orthographic())
+        defines.push_back("SEVERAL");
+    return defines;
+}
+
+GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
+                       const BackgroundKind& kind) {
+    GlProgram::Sources sources;
+    sources.name = "background";
+    std::vector<std::string> vertex_defines;
+    if (std::find(defines.begin(), defines.end(), kManyPlanes) != defines.end())
+        vertex_defines.push_back(kManyPlanes);
+    sources.vertex = assemble_shader(vertex_defines, {"background_vertex"});
+    sources.fragment =
+        assemble_shader(defines, {"surfaces", "surface_patterns", "background_fragment"});
+    sources.attributes = {"a_rectangle", "a_seen", "a_shading", "a_planes"};
+    sources.outputs = {"out_color", "out_g_buffer"};  // as BackgroundPicture::targets() has them
+    if (kind.occludes) sources.outputs.push_back("out_front");
+    if (kind.mirrors) sources.outputs.push_back("out_mirror");
+    return GlProgram(gl, sources);
+}
+
+/// Current in this thread for as long as it lives.
+class Current {
+  public:
+    explicit Current(OffscreenContext& context) : context_(context) { context_.make_current(); }
+    ~Current() { context_.release(); }
+    Current(const Current&) = delete;
+    Current& operator=(const Current&) = delete;
+
+  private:
+    OffscreenContext& context_;
+};
+
+}  // namespace
+
+void BackgroundDrawing::aim(const BackgroundPicture& target) {
+    framebuffer_ = make_framebuffer(*gl_, "the background", target.targets());
+}
+
+GlProgram& BackgroundDrawing::program_for(const View& view, const SurfaceTable& table,
+                                          unsigned bodies) {
+    std::vector<std::string> defines = defines_for(view, table, kind_, bodies);
+    const auto found = programs_.find(defines);
+    if (found != programs_.end()) return found->second;
+    GlProgram program = make_program(*gl_, defines, kind_);
+    return programs_.emplace(std::move(defines), std::move(program)).first->second;
+}
+
+void BackgroundDrawing::compile(const View& view, const SurfaceTable& table) {
+    program_for(view, table, bodies_in(table));
+}
+
+void BackgroundDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
+                             const PictureScale& scale) {
+    draw(view, lights, table, scale, sort_into_tiles(table, view, lights, scale));
+}
+
+void BackgroundDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
+                             const PictureScale& scale, const SurfaceTiles& tiles) {
+    std::map<unsigned, std::vector<float>> by_bodies;
+    if (each_set_) {
+        for (std::size_t i = 0; i < tiles.rectangles.size(); i += SurfaceTiles::kRectangleFloats) {
+            const float* rectangle = &tiles.rectangles[i];
+            std::vector<float>& those = by_bodies[bodies_in(rectangle)];
+            those.insert(those.end(), rectangle, rectangle + SurfaceTiles::kRectangleFloats);
+        }
+    } else {
+        by_bodies[bodies_in(table)] = tiles.rectangles;
+    }
+    const Gl& gl = *gl_;
+    GlVec4Array surfaces(gl), listed(gl);
+    surfaces.upload(table.vec4s);
+    surfaces.bind(0);
+    listed.upload(tiles.entries);
+    listed.bind(1);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    gl.Viewport(0, 0, view.width_px(), view.height_px());
+    gl.Disable(GL_BLEND);
+    for (const auto& [bodies, rectangles] : by_bodies)
+        draw_rectangles(program_for(view, table, bodies), view, lights, table, scale, rectangles);
+    gl.check("drawing the background");
+}
+
+void BackgroundDrawing::draw_rectangles(GlProgram& program, const View& view, const Lights& lights,
+                                        const SurfaceTable& table, const PictureScale& scale,
+                                        const std::vector<float>& rectangles) {
+    const Gl& gl = *gl_;
+    set_common_uniforms(program, view, lights);
+    program.set("u_size", Vec2(view.width_px(), view.height_px()));
+    program.set("u_surfaces", 0);
+    program.set("u_listed", 1);
+    program.set("u_counts", std::array{table.planes, table.boxes, table.spheres, table.capsules});
+    program.set("u_fade_m", scale.fade_m);
+    program.set("u_ao_reach_m", scale.ao_reach_m);
+
+    const GlVertexArray vertex_array(gl);
+    const GlBuffer buffer(gl);
+    gl.BindVertexArray(vertex_array.name());
+    gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
+    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rectangles.size() * sizeof(float)),
+                  rectangles.data(), GL_STREAM_DRAW);
+    constexpr std::size_t kStride = SurfaceTiles::kRectangleFloats * sizeof(float);
+    for (GLuint i = 0; i < SurfaceTiles::kRectangleFloats / 4; ++i) {
+        gl.EnableVertexAttribArray(i);
+        gl.VertexAttribDivisor(i, 1);
+        gl.VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kStride),
+                               reinterpret_cast<const void*>(std::size_t{i} * 4 * sizeof(float)));
+    }
+    gl.DrawArraysInstanced(
+        GL_TRIANGLE_STRIP, 0, 4,
+        static_cast<GLsizei>(rectangles.size() / SurfaceTiles::kRectangleFloats));
+}
+
+double draw_in_second_context(DrawingContexts& contexts, const BackgroundContents& contents,
+                              const std::shared_future<const BackgroundPicture*>& target,
+                              const std::function<void(const BackgroundPicture&)>& then) {
+    const double begin = thread_cpu_s();
+    if (!contexts.second) contexts.second.emplace(contexts.main);
+    const Current current(*contexts.second);
+    const Gl& gl = contexts.second->gl();
+    gl.Disable(GL_DITHER);
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    BackgroundDrawing drawing(gl, contents.kind);
+    drawing.compile(contents.view, contents.table);
+    const BackgroundPicture& picture = *target.get();
+    drawing.aim(picture);
+    drawing.draw(contents.view, contents.lights, contents.table, contents.scale);
+    gl.Flush();  // it is drawn by the driver's own threads meanwhile
+    if (then) then(picture);
+    gl.Finish();
+    return thread_cpu_s() - begin;
+}
+
+}  // namespace carom

@@ -1,0 +1,72 @@
+#include "render/background/surface_bounds.h"
+
+namespace carom {
+
+namespace {
+
+/// The eight sums of +- the three edges.
+std::vector<Vec3> cube_corners(const Vec3& middle, const Vec3& a, const Vec3& b, const Vec3& c) {
+    std::vector<Vec3> corners;
+    for (const double i : {-1.0, 1.0})
+        for (const double j : {-1.0, 1.0})
+            for (const double k : {-1.0, 1.0}) corners.push_back(middle + i * a + j * b + k * c);
+    return corners;
+}
+
+SurfaceBound box_bound(const SurfaceTable& table, int record) {
+    SurfaceBound bound;
+    bound.box = true;
+    bound.center = table.at(record, 0).head<3>();
+    bound.radius = table.at(record, 0).w();
+    std::array<double, 3> half{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector4d row = table.at(record, 1 + static_cast<int>(axis));
+        bound.axes[axis] = row.head<3>();
+        half[axis] = row.w();
+    }
+    bound.cores = cube_corners(bound.center, half[0] * bound.axes[0], half[1] * bound.axes[1],
+                               half[2] * bound.axes[2]);
+    bound.mirrors = table.at(record, 6).x() > 0;
+    return bound;
+}
+
+SurfaceBound round_bound(const Vec3& from, const Vec3& to, double radius) {
+    SurfaceBound bound;
+    bound.cores = {from};
+    if (to != from) bound.cores.push_back(to);
+    bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    bound.thick = radius;
+    bound.center = 0.5 * (from + to);
+    bound.radius = 0.5 * (to - from).norm() + radius;
+    return bound;
+}
+
+}  // namespace
+
+std::vector<Vec3> SurfaceBound::corners(double around) const {
+    const double r = thick + around;
+    if (!(r > 0)) return cores;
+    std::vector<Vec3> points;
+    for (const Vec3& core : cores)
+        for (const Vec3& corner : cube_corners(core, r * axes[0], r * axes[1], r * axes[2]))
+            points.push_back(corner);
+    return points;
+}
+
+std::vector<SurfaceBound> surface_bounds(const SurfaceTable& table) {
+    std::vector<SurfaceBound> bounds;
+    int record = table.planes;
+    for (int i = 0; i < table.boxes; ++i) bounds.push_back(box_bound(table, record++));
+    for (int i = 0; i < table.spheres; ++i, ++record) {
+        const Eigen::Vector4d sphere = table.at(record, 0);
+        bounds.push_back(round_bound(sphere.head<3>(), sphere.head<3>(), sphere.w()));
+    }
+    for (int i = 0; i < table.capsules; ++i, ++record) {
+        const Eigen::Vector4d end = table.at(record, 0);
+        const Vec3 from = end.head<3>();
+        bounds.push_back(round_bound(from, from + table.at(record, 1).head<3>(), end.w()));
+    }
+    return bounds;
+}
+
+}  // namespace carom

@@ -1,0 +1,153 @@
+#include "render/background/surface_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "render/blend/srgb.h"
+#include "render/view/view_space.h"
+
+namespace carom {
+
+namespace {
+
+using Record = std::array<float, 4 * kSurfaceVec4s>;
+
+void put(Record& record, int slot, const Vec3& xyz, double w) {
+    for (int i = 0; i < 3; ++i)
+        record[static_cast<std::size_t>(4 * slot + i)] = static_cast<float>(xyz[i]);
+    record[static_cast<std::size_t>(4 * slot + 3)] = static_cast<float>(w);
+}
+
+Vec3 linear(const Color& c) {
+    return {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
+}
+
+/// As surface_patterns.glsl numbers them.
+double pattern_number(LookStyle style) {
+    switch (style) {
+        case LookStyle::kChecker:
+            return 1;
+        case LookStyle::kGrid:
+            return 2;
+        case LookStyle::kWood:
+            return 3;
+        case LookStyle::kCourt:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+void put_look(Record& record, const Look& look) {
+    put(record, 4, linear(look.color), pattern_number(look.style));
+    put(record, 5, linear(look.second_color), look.tile_m);
+}
+
+/// Pattern axes in the plane; for a floor they are the world's x and y.
+void put_pattern(Record& record, const PlaneShape& plane, const Look& look, const View& view) {
+    Vec3 u = Vec3::UnitX() - plane.normal * plane.normal.x();
+    if (u.norm() < 0.5) u = Vec3::UnitY() - plane.normal * plane.normal.y();
+    u.normalize();
+    const Vec3 v = plane.normal.cross(u);
+    const bool repeats = look.style == LookStyle::kChecker || look.style == LookStyle::kGrid;
+    const double period = repeats ? 2.0 * look.tile_m : std::numeric_limits<double>::infinity();
+    put(record, 6, view_direction(view, u), std::fmod(view.eye().dot(u), period));
+    put(record, 7, view_direction(view, v), std::fmod(view.eye().dot(v), period));
+}
+
+Record plane_record(const PlaneShape& plane, const Look& look, const View& view) {
+    Record record{};
+    put(record, 0, view_direction(view, plane.normal),
+        plane.offset_m - plane.normal.dot(view.eye()));
+    put(record, 1, Vec3(look.reflection, 0, 0), 0);
+    put_pattern(record, plane, look, view);
+    return record;
+}
+
+Record box_record(const BoxShape& box, const Look& look, const View& view) {
+    Record record{};
+    put(record, 0, view_point(view, box.center), 0.5 * box.size.norm());
+    const Mat3 world_from_box = box.orientation.toRotationMatrix();
+    for (int axis = 0; axis < 3; ++axis)
+        put(record, 1 + axis, view_direction(view, world_from_box.col(axis)), 0.5 * box.size[axis]);
+    put(record, 6, Vec3(look.reflection, 0, 0), 0);
+    put(record, 7, view_direction(view, top_of(box).normal), 0);
+    return record;
+}
+
+/// Records of one kind of shape, in the scene's order; returns how many.
+template <class Shape, class Make>
+int append(const Scene& scene, SurfaceTable& table, const Make& make) {
+    int count = 0;
+    for (const Surface& surface : scene.surfaces) {
+        const Shape* shape = std::get_if<Shape>(&surface.shape);
+        if (shape == nullptr) continue;
+        const Look& look = scene.looks.at(static_cast<std::size_t>(surface.look));
+        Record record{};
+        // Also of what this view does not show: programs stay the same as the camera moves.
+        constexpr bool kFlat = std::is_same_v<Shape, PlaneShape> || std::is_same_v<Shape, BoxShape>;
+        table.reflection |= kFlat && look.reflection > 0;
+        if (!make(*shape, look, record)) continue;
+        put_look(record, look);
+        table.checker |= look.style == LookStyle::kChecker;
+        table.grid |= look.style == LookStyle::kGrid;
+        table.wood |= look.style == LookStyle::kWood;
+        table.court |= look.style == LookStyle::kCourt;
+        table.vec4s.insert(table.vec4s.end(), record.begin(), record.end());
+        ++count;
+    }
+    return count;
+}
+
+}  // namespace
+
+bool seen_from_front(const PlaneShape& plane, const View& view) {
+    // Parallel rays see a plane from the side that they come from; edge-on, the ground that it
+    // cuts.
+    constexpr double kEdgeOn = 1e-7;  // cosine; surfaces.glsl has the same
+    if (view.orthographic()) return plane.normal.dot(view.forward()) < kEdgeOn;
+    return plane.normal.dot(view.eye()) > plane.offset_m;
+}
+
+PlaneShape top_of(const BoxShape& box) {
+    const Mat3 axes = box.orientation.toRotationMatrix();
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(axes(2, i)) > std::abs(axes(2, axis)) + 1e-9) axis = i;
+    PlaneShape top;
+    top.normal = axes.col(axis) * (axes(2, axis) < 0 ? -1.0 : 1.0);
+    top.offset_m = top.normal.dot(box.center) + 0.5 * box.size[axis];
+    return top;
+}
+
+SurfaceTable make_surface_table(const Scene& scene, const View& view) {
+    SurfaceTable table;
+    table.planes = append<PlaneShape>(
+        scene, table, [&](const PlaneShape& plane, const Look& look, Record& record) {
+            if (!seen_from_front(plane, view)) return false;
+            record = plane_record(plane, look, view);
+            return true;
+        });
+    table.boxes =
+        append<BoxShape>(scene, table, [&](const BoxShape& box, const Look& look, Record& record) {
+            record = box_record(box, look, view);
+            return true;
+        });
+    table.spheres = append<SphereShape>(
+        scene, table, [&](const SphereShape& sphere, const Look&, Record& record) {
+            put(record, 0, view_point(view, sphere.center), sphere.radius);
+            return true;
+        });
+    table.capsules = append<CapsuleShape>(
+        scene, table, [&](const CapsuleShape& capsule, const Look&, Record& record) {
+            put(record, 0, view_point(view, capsule.from), capsule.radius);
+            put(record, 1, view_direction(view, capsule.to - capsule.from), 0);
+            return true;
+        });
+    return table;
+}
+
+}  // namespace carom

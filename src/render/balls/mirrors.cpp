@@ -1,0 +1,81 @@
+#include "render/balls/mirrors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/background/surface_table.h"
+#include "render/view/view_space.h"
+
+namespace carom {
+
+namespace {
+
+Mirror plane_mirror(const PlaneShape& plane, const View& view) {
+    Mirror mirror;
+    mirror.normal = view_direction(view, plane.normal);
+    mirror.offset = plane.offset_m - plane.normal.dot(view.eye());
+    mirror.fades = true;
+    return mirror;
+}
+
+Mirror box_mirror(const BoxShape& box, const PlaneShape& top, const View& view) {
+    Mirror mirror = plane_mirror(top, view);
+    mirror.fades = false;
+    mirror.middle =
+        view_point(view, box.center + top.normal * (top.offset_m - top.normal.dot(box.center)));
+    const Mat3 axes = box.orientation.toRotationMatrix();
+    Vec3* next = &mirror.axis_a;
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(axes.col(i).dot(top.normal)) > 0.5) continue;
+        *next = view_direction(view, axes.col(i)) / (0.5 * box.size[i]);
+        next = &mirror.axis_b;
+    }
+    return mirror;
+}
+
+}  // namespace
+
+bool wants_reflection(const Scene& scene) {
+    return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+        const bool flat = std::holds_alternative<PlaneShape>(surface.shape) ||
+                          std::holds_alternative<BoxShape>(surface.shape);
+        return flat && scene.looks.at(static_cast<std::size_t>(surface.look)).reflection > 0;
+    });
+}
+
+std::vector<Mirror> find_mirrors(const Scene& scene, const View& view) {
+    std::vector<Mirror> mirrors;
+    for (const Surface& surface : scene.surfaces) {
+        const double strength = scene.looks.at(static_cast<std::size_t>(surface.look)).reflection;
+        if (!(strength > 0)) continue;
+        if (const auto* plane = std::get_if<PlaneShape>(&surface.shape)) {
+            if (!seen_from_front(*plane, view)) continue;
+            mirrors.push_back(plane_mirror(*plane, view));
+        } else if (const auto* box = std::get_if<BoxShape>(&surface.shape)) {
+            const PlaneShape top = top_of(*box);
+            if (!seen_from_front(top, view)) continue;
+            mirrors.push_back(box_mirror(*box, top, view));
+        } else {
+            continue;
+        }
+        mirrors.back().strength = strength;
+    }
+    return mirrors;
+}
+
+std::vector<BallInView> mirror_images(const std::vector<BallInView>& balls, const Mirror& mirror,
+                                      const View& view) {
+    const Mat3 flip = Mat3::Identity() - 2 * mirror.normal * mirror.normal.transpose();
+    std::vector<BallInView> images;
+    for (const BallInView& ball : balls) {
+        const double height = mirror.normal.dot(ball.center) - mirror.offset;
+        if (height < -ball.radius) continue;  // all of it is behind the mirror
+        BallInView& image = images.emplace_back(ball);
+        image.center -= 2 * height * mirror.normal;
+        image.ball_from_view = ball.ball_from_view * flip;
+    }
+    sort_for_drawing(images, view);
+    return images;
+}
+
+}  // namespace carom

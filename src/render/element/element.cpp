@@ -1,0 +1,10 @@
+#include "render/element/element.h"
+
+namespace carom {
+
+const Image& Element::picture() const {
+    static const Image none;
+    return none;
+}
+
+}  // namespace carom

@@ -1,0 +1,385 @@
+#include "render/picture/single_picture.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/check.h"
+#include "core/failure.h"
+#include "render/background/background_drawing.h"
+#include "render/background/background_picture.h"
+#include "render/background/surface_table.h"
+#include "render/balls/drawn_balls.h"
+#include "render/balls/shadow_tiles.h"
+#include "render/blend/alpha_encoding.h"
+#include "render/blend/linear_layer.h"
+#include "render/blend/picture_layer.h"
+#include "render/blend/picture_mean.h"
+#include "render/gl/driver_clock.h"
+#include "render/gl/offscreen.h"
+#include "render/overlay/elements.h"
+#include "render/picture/exposure_groups.h"
+#include "render/picture/frame_passes.h"
+#include "render/picture/picture_setup.h"
+#include "render/runs/second_run.h"
+#include "render/view/camera_motion.h"
+#include "render/view/exposure.h"
+#include "render/view/picture_scale.h"
+
+namespace carom {
+
+namespace {
+
+/// Runs `work` on a thread of its own; where there is none to be had, when its result is asked for.
+template <class Work>
+std::future<double> on_a_thread(const Work& work) {
+    try {
+        return std::async(std::launch::async, work);
+    } catch (const std::system_error&) {
+        return std::async(std::launch::deferred, work);
+    }
+}
+
+class SinglePicture : public Picture {
+  public:
+    SinglePicture(const Scene& scene, const Motion& motion, const PainterOptions& options,
+                  const PictureHalf* half)
+        : scene_(scene),
+          motion_(motion),
+          second_(options.second),
+          half_(half),
+          transparent_(scene.background == Background::kTransparent),
+          width_px_(options.width_px),
+          height_px_(options.height_px),
+          setup_(scene, motion, options, half),
+          draw_cpu_s_(thread_cpu_s() - begin_s_),
+          contexts_(options.contexts ? options.contexts : std::make_shared<DrawingContexts>()),
+          context_(contexts_->main),
+          gl_(context_.gl()) {
+        context_.make_current();
+        check_size();
+        const double begin = clock_.now_s();
+        // Of a camera that stands, the background takes about as long as everything else: it is
+        // drawn meanwhile. (An exception here breaks the promise, so that the thread ends.)
+        std::future<double> drawn;
+        std::promise<const BackgroundPicture*> target;
+        if (!setup_.moving)
+            drawn = on_a_thread([this, &options, promised = target.get_future().share()] {
+                return draw_in_second_context(
+                    *contexts_,
+                    {setup_.view, setup_.lights, setup_.surfaces, setup_.scale, setup_.kind},
+                    promised, shares(options));
+            });
+
+        gl_.Disable(GL_DITHER);
+        gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+        gl_.Enable(GL_FRAMEBUFFER_SRGB);
+        color_ =
+            make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
+        background_.emplace(gl_, width_px_, height_px_, setup_.kind);
+        passes_.emplace(*contexts_,
+                        FramePasses::Contents{scene, second_, transparent_, options.few_pictures},
+                        setup_, color_);
+        target.set_value(&*background_);
+        if (setup_.moving)
+            drawing_.emplace(gl_, setup_.kind, BackgroundPrograms::kEachSetOfBodies)
+                .aim(*background_);
+        const Image layer = setup_.moving ? Image() : setup_.overlay.background_layer();
+        if (scene.film.shutter_deg > 0) mean_.emplace();
+        passes_->prepare(*background_);
+        if (!setup_.moving) {
+            draw_cpu_s_ += drawn.get();
+            context_.make_current();  // another one was, if the thread was this one
+            if (layer.width_px != 0) background_->lay_over(layer);
+            // For a few pictures it is not worth the while to find out.
+            if (passes_->has_shadows() && !options.few_pictures)
+                passes_->see_in_tiles(setup_.view, setup_.lights, seen_in_tiles());
+            check_not_blank();
+        }
+        gl_.check("preparing the picture");
+        draw_cpu_s_ += clock_.now_s() - begin;
+    }
+
+    ~SinglePicture() override {
+        // The objects below are deleted in this context; destroying a context never throws.
+        try {
+            context_.make_current();
+        } catch (const Failure&) {
+        }
+    }
+    SinglePicture(const SinglePicture&) = delete;
+    SinglePicture& operator=(const SinglePicture&) = delete;
+
+    void paint(const std::vector<double>& instants, Image& out) override {
+        CAROM_CHECK(instants.size(), >, std::size_t{0});
+        const double t = instants.back();
+        const double begin = clock_.now_s();
+        context_.make_current();
+        if (out.width_px != width_px_ || out.height_px != height_px_)
+            out = Image(width_px_, height_px_);
+        bool blurred = false;
+        if (mean_ && instants.size() == 1) {
+            const Blur blur = blur_at(t);
+            blurred = blur.count > 1;
+            most_instants_ = std::max(most_instants_, blur.count);
+            if (blurred) sum_exposure(blur, t);
+        }
+        if (setup_.moving) {
+            move_camera(t);
+            if (!checked_) check_not_blank();
+        }
+        draw_picture(drawn_balls_at(instants), t, {{0, 0, width_px_, height_px_}});
+        gl_.Finish();
+        const double drawn = clock_.now_s();
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, passes_->frame().name());
+        gl_.ReadPixels(0, 0, width_px_, height_px_, GL_BGRA, GL_UNSIGNED_BYTE, out.bgra.data());
+        gl_.check("drawing a frame");
+        const double read = clock_.now_s();
+        if (blurred) mean_->write(out);
+        if (transparent_) encode_alpha(out);
+        setup_.overlay.draw_over(t, out);
+        draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
+        read_cpu_s_ += read - drawn;
+    }
+
+    std::string renderer() override {
+        context_.make_current();
+        return context_.renderer();
+    }
+    std::map<std::string, DrawnEffect> effects() const override;
+    double draw_cpu_s() const override { return draw_cpu_s_; }
+    double read_cpu_s() const override { return read_cpu_s_; }
+
+  private:
+    void check_size() const {
+        GLint largest = 0;
+        gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+        if (width_px_ <= largest && height_px_ <= largest) return;
+        throw Failure(FailureKind::kRun,
+                      fmt::format("a picture of {} x {} pixels is too large: the driver draws at "
+                                  "most {} x {}",
+                                  width_px_, height_px_, largest, largest));
+    }
+
+    /// What the thread that draws the background does next: where this is the one picture that
+    /// is drawn, programs are compiled by both threads.
+    std::function<void(const BackgroundPicture&)> shares(const PainterOptions& options) {
+        if (!options.few_pictures || options.contexts) return {};
+        return
+            [this](const BackgroundPicture& drawn) { passes_->prepare_in_second_context(drawn); };
+    }
+
+    std::vector<TileBound> seen_in_tiles() const {
+        if (!setup_.kind.occludes) return {};  // on one plane the shadows' own bounds are tight
+        return background_->tile_bounds(setup_.view, ShadowTiles::kTilePx);
+    }
+
+    /// Everything that depends on the view, for the camera's place at t.
+    void move_camera(double t) {
+        const Camera camera = camera_at(setup_.camera, camera_motion(), t);
+        const Lights& lights = setup_.lights;
+        const View& view = setup_.view = View(camera, width_px_, height_px_);
+        setup_.surfaces = make_surface_table(scene_, view);
+        setup_.scale = scale_of(scene_, camera);
+        drawing_->draw(view, lights, setup_.surfaces, setup_.scale);
+        setup_.overlay.set_view(view);
+        lay_background_layer();
+        if (passes_->has_shadows()) passes_->see_in_tiles(view, lights, seen_in_tiles());
+        passes_->set_view(view, lights, setup_.scale);
+    }
+
+    const Motion& camera_motion() const {
+        return half_ != nullptr ? *half_->camera_motion : motion_;
+    }
+
+    DrawnBalls drawn_balls_at(const std::vector<double>& instants) const {
+        return carom::drawn_balls_at(instants, scene_, motion_, second_, setup_.view);
+    }
+
+    /// Everything below the text, at the view as it is; of the background, what `parts` cover.
+    void draw_picture(const DrawnBalls& bodies, double t, const std::vector<PixelRect>& parts) {
+        copy_background(parts);
+        passes_->draw_below(bodies, *background_);
+        if (setup_.overlay.has_moving_layer()) draw_moving_layer(t, parts);
+        passes_->draw_balls(bodies, *background_);
+    }
+
+    /// What blurs in the picture at t, while the shutter is open.
+    struct Blur {
+        Exposure exposure;
+        std::vector<double> ways_px;  ///< of the balls, then of those of the second run
+        int count = 1;                ///< of instants, at most
+    };
+    Blur blur_at(double t) const {
+        Blur blur{Exposure(scene_.film, motion_.duration, t), {}};
+        // Balls are seen from where the camera is at t.
+        const View view(camera_at(setup_.camera, camera_motion(), t), width_px_, height_px_);
+        std::vector<BallWay> ways = ball_ways_px(scene_, motion_, blur.exposure, view);
+        if (second_ != nullptr) {
+            const std::vector<BallWay> seconds =
+                ball_ways_px(second_->scene, second_->motion, blur.exposure, view);
+            ways.insert(ways.end(), seconds.begin(), seconds.end());
+        }
+        double longest = 0;
+        for (const BallWay& way : ways) longest = std::max(longest, way.seen);
+        for (const BallWay& way : ways) blur.ways_px.push_back(std::min(way.all, longest));
+        if (setup_.moving)
+            longest +=
+                camera_way_px(setup_.camera, camera_motion(), blur.exposure, width_px_, height_px_);
+        blur.count = exposure_count(longest);
+        return blur;
+    }
+
+    static_assert(kMostInstants <= PictureMean::kMost);
+    /// Sums pictures wherever something moves. Trails and the like are those of t.
+    void sum_exposure(const Blur& blur, double t) {
+        mean_->clear();
+        if (setup_.moving) {
+            TileMask mask(width_px_, height_px_, ShadowTiles::kTilePx);
+            mask.add_all();
+            mean_->begin(mask.parts(), blur.count);
+            for (const double instant : exposure_instants(blur.exposure, blur.count)) {
+                move_camera(instant);
+                draw_picture(drawn_balls_at({instant}), t, {{0, 0, width_px_, height_px_}});
+                mean_->add(gl_, passes_->frame());
+            }
+            return;
+        }
+        TileOwners owners(width_px_, height_px_, ShadowTiles::kTilePx, blur.ways_px.size());
+        for (const double instant : exposure_instants(blur.exposure, blur.count))
+            passes_->mark(drawn_balls_at({instant}), setup_.view, owners);
+        for (const ExposureGroup& group : sort_exposure(owners, blur.ways_px, blur.count)) {
+            std::vector<PixelRect> changing;
+            for (const TileMask::Part& part : group.parts) changing.push_back(part.bounds);
+            changing = apart(changing);
+            mean_->begin(group.parts, group.count);
+            for (const double instant : exposure_instants(blur.exposure, group.count)) {
+                DrawnBalls bodies = drawn_balls_at({instant});
+                draw_only(group, scene_.balls.size(), bodies);
+                draw_picture(bodies, t, changing);
+                mean_->add(gl_, passes_->frame());
+            }
+        }
+    }
+
+    void lay_background_layer() {
+        const Image layer = setup_.overlay.background_layer();
+        if (layer.width_px != 0) background_->lay_over(layer);
+    }
+
+    void draw_moving_layer(double t, const std::vector<PixelRect>& parts) {
+        const PixelRect changed = setup_.overlay.update_moving_layer(t);
+        const Image& layer = setup_.overlay.moving_layer();
+        const PixelRect whole{0, 0, width_px_, height_px_};
+        constexpr std::size_t kMostParts = 16;
+        if (setup_.moving) {
+            layer_parts_ = {filled_part(layer)};
+        } else if (!changed.empty()) {
+            layer_parts_.push_back(whole.common(changed));
+            layer_parts_ = apart(layer_parts_, kMostParts);
+        }
+        for (const PixelRect& part : parts)
+            for (const PixelRect& filled : layer_parts_)
+                lay_over(gl_, layer, filled.common(part), passes_->frame(), color_);
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
+    }
+
+    /// The parts must not overlap.
+    void copy_background(const std::vector<PixelRect>& parts) {
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, background_->color_framebuffer().name());
+        gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, passes_->frame().name());
+        for (const PixelRect& part : parts)
+            gl_.BlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top,
+                                part.right, part.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
+        gl_.Viewport(0, 0, width_px_, height_px_);
+    }
+
+    /// Drivers are known that draw nothing and report no error. A picture is opaque, or, where it
+    /// shows nothing, transparent; never in between where no edge is.
+    void check_not_blank() {
+        checked_ = true;
+        constexpr float kMark = 0.3F;
+        constexpr int kMarkByte = 77;
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
+        gl_.ClearColor(kMark, kMark, kMark, transparent_ ? kMark : 0.0F);
+        gl_.Clear(GL_COLOR_BUFFER_BIT);
+        const int x = width_px_ / 2, y = height_px_ / 2;
+        copy_background({{x, y, x + 1, y + 1}});
+        std::uint8_t pixel[4] = {};
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, passes_->frame().name());
+        gl_.ReadPixels(x, y, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
+        if (transparent_ ? pixel[3] == kMarkByte : pixel[3] != 255)
+            throw Failure(FailureKind::kRun,
+                          "the driver draws blank pictures and reports no error (" +
+                              context_.renderer() + ")");
+    }
+
+    const Scene& scene_;
+    const Motion& motion_;
+    const SecondRun* second_;  ///< drawn as ghosts; may be null
+    const PictureHalf* half_;  ///< null where this is the whole picture
+    bool transparent_;
+    int width_px_, height_px_;
+    double begin_s_ = thread_cpu_s();
+    PictureSetup setup_;  // as its driver is loaded meanwhile, before the context
+    double draw_cpu_s_;
+    std::shared_ptr<DrawingContexts> contexts_;
+    OffscreenContext& context_;  // outlives every owner of GL objects below
+    const Gl& gl_;
+    DriverClock clock_;
+    bool checked_ = false;  ///< that the driver draws anything
+    GlTexture color_;
+    std::optional<BackgroundPicture> background_;
+    std::optional<BackgroundDrawing> drawing_;  ///< again and again, where the camera moves
+    std::optional<FramePasses> passes_;
+    /// What moves below the balls has never filled anything else.
+    std::vector<PixelRect> layer_parts_;
+    std::optional<PictureMean> mean_;  ///< where there is a shutter
+    int most_instants_ = 1;            ///< of one picture
+    double read_cpu_s_ = 0;
+};
+
+std::map<std::string, DrawnEffect> SinglePicture::effects() const {
+    std::map<std::string, DrawnEffect> result;
+    const auto add = [&](const char* name, bool on, const char* why_on, const char* why_off) {
+        result[name] = {on, on ? why_on : why_off};
+    };
+    bool marked = false;
+    for (const Ball& ball : scene_.balls)
+        marked |= scene_.looks[static_cast<std::size_t>(ball.look)].style != LookStyle::kPlain;
+    add("shadows", passes_->has_shadows(), "balls over surfaces", "no ball, or no surface in view");
+    add("reflection", passes_->has_reflections(), "a look with a reflection",
+        transparent_ ? "not on a transparent background" : "no look asks for it");
+    add("occlusion", setup_.kind.occludes, "bodies that balls can pass behind",
+        "nothing that a ball could pass behind");
+    add("markings", marked, "balls with a style", "all balls are plain");
+    for (const ElementKind& kind : element_kinds())
+        if (kind.name != nullptr) add(kind.name, kind.wanted(scene_), kind.why, kind.why_not);
+    add("transparent", transparent_, "the scene asks for it", "not asked for");
+    for (const std::string& name : setup_.overlay.left_out())
+        result[name] = {false, "the picture has no room for it"};
+    add("against", passes_->has_ghosts(), "a second run as ghosts", "no second run");
+    add("motion_blur", mean_.has_value(), "film.shutter_deg is above 0", "film.shutter_deg is 0");
+    if (mean_)
+        result["motion_blur"].why += fmt::format("; at most {} instants a picture", most_instants_);
+    return result;
+}
+
+}  // namespace
+
+std::unique_ptr<Picture> make_single_picture(const Scene& scene, const Motion& motion,
+                                             const PainterOptions& options,
+                                             const PictureHalf* half) {
+    return std::make_unique<SinglePicture>(scene, motion, options, half);
+}
+
+}  // namespace carom
