@@ -37,8 +37,8 @@ TEST(RulerPlace, IsBesideAllBallsInTheOutermostOnesDepth) {
 }
 
 TEST(RulerPlace, EndsAtTheNextMark) {
-    // The lowest point of the ball starts at `height`.
-    const auto top = [](double height) { return staff_of(drop(height + 0.1, 0.1, 3)).to_m; };
+    // The ball falls with its lowest point from `height`.
+    const auto top = [](double height) { return staff_of(drop(height, 0.1, 3)).to_m; };
     EXPECT_NEAR(2.0, top(1.8), 1e-12);
     EXPECT_NEAR(2.0, top(2.0), 1e-12) << "a height on a mark needs no further one";
     EXPECT_NEAR(2.5, top(2.01), 1e-12);

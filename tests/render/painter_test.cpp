@@ -8,6 +8,7 @@
 
 #include "core/failure.h"
 #include "hand_made_scene.h"
+#include "render/gl/gl_program.h"
 #include "render/gl/offscreen.h"
 #include "render/view/lights.h"
 
