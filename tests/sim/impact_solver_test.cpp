@@ -210,5 +210,33 @@ TEST(ImpactSweeps, CoulombsCone) {
     }
 }
 
+/// What approaches a million times slower than all of it moves is solved to the rounding of the
+/// velocities, which ODE's answer has: sweeps find no better one.
+TEST(ImpactSolver, SlowApproachesInAFastHeapNeedNoSweeps) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    ImpactSolver solver;
+    double worst = 0;
+    for (int trial = 0; trial < 50; ++trial) {
+        std::vector<ImpactBody> bodies;
+        for (int i = 0; i < 12; ++i)
+            bodies.push_back(
+                ball(Vec3(0.2 * (i % 4) + 0.1 * (i / 4 % 2), 0.1 * std::sqrt(3.0) * (i / 4), 0),
+                     Vec3(3, 2, 0) + 1e-6 * Vec3(unit(random), unit(random), 0)));
+        std::vector<Contact> contacts;
+        for (int a = 0; a < 12; ++a)
+            for (int b = a + 1; b < 12; ++b) {
+                const auto at = [&bodies](int i) { return bodies[std::size_t(i)].position; };
+                if ((at(a) - at(b)).norm() < 0.201) contacts.push_back(between(a, b, bodies, 0));
+            }
+        ASSERT_GT(contacts.size(), 20u);
+        solver.solve(bodies, contacts, 0);
+        for (const Contact& c : contacts) worst = std::max(worst, -c.separation_speed);
+    }
+    std::printf("sweeps %d, still approaching %.3g m/s\n", int(solver.sweeps()), worst);
+    EXPECT_EQ(solver.sweeps(), 0);
+    EXPECT_LE(worst, 1e-13);
+}
+
 }  // namespace
 }  // namespace carom

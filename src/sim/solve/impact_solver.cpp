@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/failure.h"
 #include "sim/solve/contact_joint.h"
@@ -31,6 +32,9 @@ constexpr std::size_t kMostForOde = 100;
 /// where it succeeds, these are roundings.
 constexpr double kWrong = 1e-11;
 
+/// What the velocities lose of relative speeds by their own rounding, relative to the largest.
+constexpr double kSpeedRounding = 64 * std::numeric_limits<double>::epsilon();
+
 Velocities other_velocities(const Contact& c, const std::vector<ImpactBody>& bodies) {
     return c.other.is_surface ? Velocities{}
                               : bodies[static_cast<std::size_t>(c.other.index)].velocities;
@@ -49,11 +53,13 @@ bool is_solved(const std::vector<ImpactBody>& before, const std::vector<ImpactBo
                const std::vector<Contact>& contacts) {
     double largest = 0;
     for (const Contact& c : contacts) largest = std::max(largest, c.approach_speed);
+    const double wrong =
+        std::max(kWrong * largest, kSpeedRounding * std::max(fastest_centre(before), largest));
     for (const Contact& c : contacts) {
         const Vec3 relative = relative_velocity(
             c, after[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, after));
         const double wanted = c.restitution * std::max(c.approach_speed, 0.0);
-        if (!(relative.dot(c.normal) >= wanted - kWrong * largest)) return false;
+        if (!(relative.dot(c.normal) >= wanted - wrong)) return false;
     }
     return energy(after) <= energy(before) * (1 + kWrong);
 }

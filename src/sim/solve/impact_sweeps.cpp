@@ -16,12 +16,22 @@ constexpr int kMostSweeps = 20'000;
 /// A sweep that changes no velocity by more than this, relative to the largest approach, ends it.
 constexpr double kConverged = 4 * std::numeric_limits<double>::epsilon();
 
+/// So does one whose changes are roundings of the velocities: relative to the largest of those.
+constexpr double kSpeedRounding = 2 * std::numeric_limits<double>::epsilon();
+
 /// Below this changes may be roundings, larger where masses are far apart, that go round in
 /// circles: then so many sweeps without a smaller one end it.
 constexpr double kRoundings = 1e-12;
+constexpr double kManyRoundings = 64;
 constexpr int kMostIdle = 16;
 
 }  // namespace
+
+double fastest_centre(const std::vector<ImpactBody>& bodies) {
+    double fastest = 0;
+    for (const ImpactBody& b : bodies) fastest = std::max(fastest, b.velocities.linear.norm());
+    return fastest;
+}
 
 void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
     std::vector<ContactRow> rows;
@@ -31,6 +41,7 @@ void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>
         rows.emplace_back(bodies, c, c.restitution * std::max(c.approach_speed, 0.0));
         scale = std::max(scale, std::abs(c.approach_speed));
     }
+    const double rounding = kSpeedRounding * fastest_centre(bodies);
     double least = std::numeric_limits<double>::infinity();
     int idle = 0;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
@@ -38,8 +49,9 @@ void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>
         for (ContactRow& row : rows) moved = std::max(moved, row.relax());
         idle = moved < least ? 0 : idle + 1;
         least = std::min(least, moved);
-        if (moved <= kConverged * scale) break;
-        if (moved <= kRoundings * scale && idle > kMostIdle) break;
+        if (moved <= std::max(kConverged * scale, rounding)) break;
+        if (moved <= std::max(kRoundings * scale, kManyRoundings * rounding) && idle > kMostIdle)
+            break;
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
         contacts[i].impulse = rows[i].normal;

@@ -18,4 +18,7 @@ namespace carom {
 /// bodies still approach a little; momentum is exact all the same.
 void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts);
 
+/// Of the bodies' centres, m/s: relative speeds are known to its rounding.
+double fastest_centre(const std::vector<ImpactBody>& bodies);
+
 }  // namespace carom
