@@ -38,7 +38,7 @@ std::optional<FilmScenes> load_film_scenes(const std::string& path, const Common
 /// The second run of a scene that names one itself, for `carom check`; empty where it does not.
 /// `text` and `overrides` are those that `scene` was read from.
 std::optional<SceneResult> read_second(const Scene& scene, const std::string& text,
-                                      const std::vector<Override>& overrides);
+                                       const std::vector<Override>& overrides);
 
 /// The simulated second run, ready for the painter, with what --stats says of it.
 struct FilmedSecond {

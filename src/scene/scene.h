@@ -114,7 +114,8 @@ struct CameraKey {
     double fov_deg = 40;
 };
 
-/// `from`, `to` and `fov_deg` are those of the motion's start; render/view/camera_motion.h moves them.
+/// `from`, `to` and `fov_deg` are those of the motion's start; render/view/camera_motion.h moves
+/// them.
 struct Camera {
     Vec3 from = Vec3(0, -6, 1.5);
     Vec3 to = Vec3(0, 0, 1);
