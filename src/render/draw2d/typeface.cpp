@@ -41,12 +41,12 @@ Collector& collector(void* user) { return *static_cast<Collector*>(user); }
 
 int move_to(const FT_Vector* to, void* user) {
     Collector& c = collector(user);
-    c.segments.push_back({Segment::Kind::kMove, {c.em(to)}});
+    c.segments.push_back({Segment::Kind::kMove, {c.em(to), Vec2::Zero(), Vec2::Zero()}});
     return 0;
 }
 int line_to(const FT_Vector* to, void* user) {
     Collector& c = collector(user);
-    c.segments.push_back({Segment::Kind::kLine, {c.em(to)}});
+    c.segments.push_back({Segment::Kind::kLine, {c.em(to), Vec2::Zero(), Vec2::Zero()}});
     return 0;
 }
 /// Bézier's second order, raised to the third.
