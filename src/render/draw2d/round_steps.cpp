@@ -1,6 +1,7 @@
 #include "render/draw2d/round_steps.h"
 
 #include <cmath>
+#include <initializer_list>
 
 namespace carom {
 
