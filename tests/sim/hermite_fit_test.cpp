@@ -25,7 +25,7 @@ TEST(HermiteFit, APolynomialOfItsDegreeIsMet) {
         EXPECT_LT((fitted[i] - terms[i]).norm(), 1e-11) << i;
 }
 
-/// exp has all derivatives 1: the error is that of the ninth, e (h/2)^3 h^6 / (9! 2^...) at most.
+/// Nine conditions: what is left of a function is of the order h^9 (exp has all derivatives).
 TEST(HermiteFit, TheErrorFallsWithTheNinthPower) {
     const auto error = [](double h) {
         const auto node = [&](double u) {

@@ -1,5 +1,5 @@
-// The integrator on a law that is not carom's, with a closed form: a bead on a circle at the end of
-// a spring, which swings; and turns that come from spins.
+// The integrator on a law that is not carom's, with a closed form: balls on springs, whose spins
+// fade; and turns that come from spins.
 #include "sim/integrate/piece_integrator.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRate = 3;  // rad/s
 
-/// x'' = -w^2 x, with a spin that swings about one axis: w' = -w^2 phi. Guard 0 shuts at x = floor.
+/// x'' = -w^2 x, and a spin that fades: w' = -k w. The guard turns negative at z = floor.
 struct SwingLaw {
     static constexpr std::size_t kBalls = 2;
     static constexpr double kStepError = 1e-14;

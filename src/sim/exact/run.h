@@ -87,7 +87,7 @@ class ExactRun {
     void end_phase(int ball, double now);
     double slip_tolerance(int ball, double now, const Velocities& velocities) const;
 
-    // One contact without a closed form: exact_curved.cpp.
+    // One contact without a closed form: integrated_contact.cpp.
     void begin_contact(int ball, double now, const Contact& contact, const Velocities& velocities,
                        double bounce_time_left, bool at_start);
     void begin_integrated(int ball, double now, const Contact& contact,
@@ -105,7 +105,7 @@ class ExactRun {
     void put_at(int ball, double now, const Vec3& x);
     void put_on_surface(int ball, double now);
 
-    // Islands of lasting contacts that ODE steps: exact_islands.cpp and exact_links.cpp.
+    // Islands of lasting contacts that ODE steps: islands.cpp and island_links.cpp.
     void enter_island(int ball, double now, const Velocities& velocities);
     bool rests_against(int ball, const Partner& partner, double now);
     bool flies_along(int ball, const Partner& partner, double now) const;
@@ -148,7 +148,7 @@ class ExactRun {
     void note_departures(int ball, const std::vector<Link>& before, double now);
     void add_contact_event(const Contact& contact, EventKind kind, double now);
 
-    // Small islands whose contacts all last, integrated: exact_linked.cpp.
+    // Small islands whose contacts all last, integrated: integrated_islands.cpp.
     /// Two that touch, but do not press any more.
     struct Separation {
         int ball = -1;
@@ -181,7 +181,7 @@ class ExactRun {
                     const CoupledForces& forces, double now, double seconds);
     void note_forces(const CoupledIsland& is, const CoupledForces& forces, bool still, double now);
 
-    // Piles: exact_pile.cpp.
+    // Piles: piles.cpp.
     bool meets_pile(const Prediction& p) const;
     void note_impact(int ball, double now);
     bool stand_together(int ball, double now);
