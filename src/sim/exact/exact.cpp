@@ -67,8 +67,10 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
       next_(scene.balls.size()),
       can_collide_(can_collide(scene, world_.pairs, end)),
       cluster_(world_),
+      collapse_(scene.balls.size()),
       seeds_(scene.balls.size()) {
     world_.place_rounding = options.place_rounding;
+    in_free_space_ = scene.simulation.gravity.isZero(0) || scene.surfaces.empty();
     for (const Ball& b : scene.balls) motion_.ball_names.push_back(b.name);
     for (const Surface& s : scene.surfaces) motion_.surface_names.push_back(s.name);
     motion_.balls.resize(scene.balls.size());
@@ -194,6 +196,14 @@ SimulationResult ExactRun::finish() {
                                        "of ODE",
                                        report_.integrated, report_.steps)}
             : Effect{false, "no two lasting contacts of a ball at the same time"};
+    report_.effects["collapse"] =
+        report_.collapses > 0
+            ? Effect{true, fmt::format("{} impacts on balls that had met others ever more often "
+                                       "went through all that touched them at once, and did not "
+                                       "rebound where they were 1000 times slower than at first",
+                                       report_.collapses)}
+            : Effect{false, in_free_space_ ? "no ball met others ever more often"
+                                           : "gravity presses on what comes to rest"};
     report_.effects["last_resort"] =
         report_.given_up > 0
             ? Effect{true, fmt::format("{} times a contact that could not be integrated, or whose "
@@ -285,11 +295,41 @@ Contact ExactRun::contact_met(const Prediction& p, double now) {
     return world_.contact_at(p.ball, p.partner, now);
 }
 
+/// What hangs on a contact that is met, and when that is resolved.
+ImpactCluster::Limits ExactRun::gather(const Contact& seed, double now) {
+    const bool heap = in_free_space_ && seed.restitution < 1 &&
+                      (collapse_.in_heap(seed.ball) ||
+                       (!seed.other.is_surface && collapse_.in_heap(seed.other.index)));
+    if (!heap) {
+        cluster_.gather(seed, seeds_, now);
+        return limits_of(cluster_);
+    }
+    cluster_.gather_heap(seed, seeds_, CollapseRule::kNear, now);
+    ImpactCluster::Limits limits;
+    if (cluster_.contact_count() == 1) {
+        for (const int ball : cluster_.balls()) collapse_.leave_heap(ball);
+    } else {
+        limits.slow = CollapseRule::kSlow;
+        ++report_.collapses;
+    }
+    return limits;
+}
+
+void ExactRun::note_series(double now) {
+    for (const int ball : cluster_.balls()) {
+        double fastest = 0;
+        for (const Contact& c : impacts_)
+            if (c.ball == ball || (!c.other.is_surface && c.other.index == ball))
+                fastest = std::max(fastest, c.approach_speed);
+        if (fastest > 0) collapse_.note(ball, world_.ball(ball).radius, fastest, now);
+    }
+}
+
 void ExactRun::resolve(const Contact& seed, double now) {
-    cluster_.gather(seed, seeds_, now);
+    const ImpactCluster::Limits limits = gather(seed, now);
     impacts_.clear();
-    const ImpactCluster::Limits limits = limits_of(cluster_);
     cluster_.resolve(solver_, impacts_, limits);
+    if (in_free_space_) note_series(now);
     const double rounding_speed =
         std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
     add_impact_events(impacts_, now);

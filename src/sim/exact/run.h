@@ -10,6 +10,7 @@
 #include "motion/motion_log.h"
 #include "sim/collide/can_collide.h"
 #include "sim/exact/exact.h"
+#include "sim/group/collapse.h"
 #include "sim/group/impact_cluster.h"
 #include "sim/group/pile.h"
 #include "sim/integrate/coupled_motion.h"
@@ -68,6 +69,8 @@ class ExactRun {
     void process_instant(double now);
     Contact contact_met(const Prediction& p, double now);
     void resolve(const Contact& seed, double now);
+    ImpactCluster::Limits gather(const Contact& seed, double now);
+    void note_series(double now);
     void settle(int ball, double now, const Velocities& velocities,
                 const std::vector<Contact>& contacts, double speed_scale, bool at_start);
     double pressing_gravity(const Vec3& normal) const;
@@ -228,6 +231,7 @@ class ExactRun {
 
     // Of one instant; members, so that an event allocates nothing once they have grown.
     ImpactCluster cluster_;
+    CollapseRule collapse_;
     Seeds seeds_;
     std::vector<Prediction> together_;
     std::vector<Contact> impacts_;
@@ -235,6 +239,7 @@ class ExactRun {
     std::vector<int> taken_;    ///< by the pile
     std::vector<int> stepped_;  ///< balls whose island is due
     std::uint64_t instant_ = 0;
+    bool in_free_space_ = false;  ///< nothing presses anything anywhere
 };
 
 }  // namespace carom

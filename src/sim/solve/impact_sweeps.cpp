@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "sim/solve/contact_rows.h"
@@ -42,11 +43,30 @@ void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>
         scale = std::max(scale, std::abs(c.approach_speed));
     }
     const double rounding = kSpeedRounding * fastest_centre(bodies);
+    // A row that was right stays so until one of its bodies changes.
+    std::vector<std::int64_t> changed(bodies.size(), 0), right(rows.size(), -1);
+    const auto last_change = [&](const Contact& c) {
+        const std::int64_t of_ball = changed[static_cast<std::size_t>(c.ball)];
+        return c.other.is_surface
+                   ? of_ball
+                   : std::max(of_ball, changed[static_cast<std::size_t>(c.other.index)]);
+    };
+    std::int64_t now = 0;
+    const auto relax = [&](std::size_t i) {
+        const Contact& c = contacts[i];
+        if (right[i] >= last_change(c)) return 0.0;
+        const double moved = rows[i].relax();
+        right[i] = ++now;
+        if (moved == 0) return 0.0;
+        changed[static_cast<std::size_t>(c.ball)] = ++now;
+        if (!c.other.is_surface) changed[static_cast<std::size_t>(c.other.index)] = now;
+        return moved;
+    };
     double least = std::numeric_limits<double>::infinity();
     int idle = 0;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
         double moved = 0;
-        for (ContactRow& row : rows) moved = std::max(moved, row.relax());
+        for (std::size_t i = 0; i < rows.size(); ++i) moved = std::max(moved, relax(i));
         idle = moved < least ? 0 : idle + 1;
         least = std::min(least, moved);
         if (moved <= std::max(kConverged * scale, rounding)) break;
