@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/check.h"
 #include "core/failure.h"
@@ -18,9 +19,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A bouncing series ends when its next hop is lower than this fraction of the ball's radius, or of
-/// its distance from the origin if that is larger: below it the hop drowns in the place's rounding.
+/// A bouncing series ends when its next hop is lower than this fraction of the ball's radius, or
+/// than so many roundings of its place: a length of the scene where that can be, so that the motion
+/// does not depend on where the coordinates begin.
 constexpr double kLastHop = 1e-12;
+constexpr double kLastRoundings = 16 * std::numeric_limits<double>::epsilon();
 
 /// Seconds until the contact point leaves the face that the ball is on. A ball that goes along a
 /// border has left when it is beyond the border's width.
@@ -79,7 +82,8 @@ double ExactRun::slip_tolerance(int ball, double now, const Velocities& velociti
 }
 
 double ExactRun::hop_limit(int ball, const Vec3& position) const {
-    return kLastHop * std::max(world_.ball(ball).radius, position.cwiseAbs().maxCoeff());
+    return std::max(kLastHop * world_.ball(ball).radius,
+                    kLastRoundings * position.cwiseAbs().maxCoeff());
 }
 
 /// What gravity presses with along a normal, m/s^2; 0 where that is none, but for rounding.
