@@ -362,7 +362,9 @@ void ExactRun::keep_if_earlier(const Partner& partner, int ball, const TimeOfImp
         // On a flat surface; what a curved one falls away by, the middle of the way tells.
         const double hop = 0.25 * toi.s * separation;
         const double limit = hop_limit(ball, world_.position(ball, from));
-        if (hop < limit && gap_at(ball, partner, from + 0.5 * toi.s) < limit) {
+        const double rise =
+            gap_at(ball, partner, from + 0.5 * toi.s) - std::max(gap_at(ball, partner, from), 0.0);
+        if (hop < limit && rise < limit) {
             const double e = world_.contact_at(ball, partner, from).restitution;
             return press(ball, partner, now, from + series_seconds(toi.s, e));
         }
