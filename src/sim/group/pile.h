@@ -103,6 +103,7 @@ class Pile {
     void look_at(PilePair& pair, double now);
     bool draws_in(const PilePair& pair, double now, const Links& links, std::vector<int>& taken);
     void choose_seconds();
+    bool sees_far_enough() const;
     void build_rows();
     void aim_at_mid_step(PileRow& row, const PilePair& pair) const;
     void solve_impacts();
@@ -127,6 +128,8 @@ class Pile {
     double slack_ = 0;            ///< m: gaps up to here take part in the step
     double skin_ = 0;             ///< m: gaps up to here are in pairs_
     double moved_ = 1e300;        ///< m: how far pairs may have closed since pairs_ was made
+    double gathered_ = 0;         ///< s, when that was last looked at
+    double fastest_ = 0;          ///< m/s: no ball is faster in the step
     double smallest_radius_ = 0;
     double longest_ = 0;  ///< s: step where nothing is fast
 };

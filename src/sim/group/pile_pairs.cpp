@@ -17,8 +17,9 @@ constexpr int kMostHalvings = 12;
 /// step's start is early by no more than that.
 constexpr double kStepOfRadius = 0.03;
 
-/// Pairs up to this gap, as a part of the smallest radius, are kept from step to step.
-constexpr double kSkinOfRadius = 0.4;
+/// Pairs up to this gap, as a part of the smallest radius, are kept from step to step; where balls
+/// are so fast that it would not last for a step, up to that one.
+constexpr double kSkinOfRadius = 0.4, kWidestSkin = 2;
 
 /// Gaps of up to this part of the smallest radius are looked at in any case.
 constexpr double kLeastSlack = 1e-4;
@@ -40,7 +41,6 @@ Pile::Pile(const ExactWorld& world)
       shift_(world.balls.size(), Vec3::Zero()) {
     smallest_radius_ = INFINITY;
     for (const Ball& b : world.scene.balls) smallest_radius_ = std::min(smallest_radius_, b.radius);
-    skin_ = kSkinOfRadius * smallest_radius_;
     const double g = world.scene.simulation.gravity.norm();
     longest_ = kLongestStep;
     for (int i = 0; i < kMostHalvings; ++i)
@@ -158,6 +158,8 @@ void Pile::add_pairs_of(int ball, double now, const Links& links, bool slept) {
 
 /// All pairs anew; what was known of the old ones stays.
 void Pile::find_pairs(double now, const Links& links) {
+    skin_ = std::clamp(2 * fastest_ * longest_, kSkinOfRadius * smallest_radius_,
+                       kWidestSkin * smallest_radius_);
     const auto by_key = [](const PilePair& a, const PilePair& b) { return a.key() < b.key(); };
     std::swap(pairs_, old_pairs_);
     std::sort(old_pairs_.begin(), old_pairs_.end(), by_key);
@@ -197,12 +199,20 @@ void Pile::look_at(PilePair& pair, double now) {
     fastest_closing_ = std::max(fastest_closing_, pair.closing);
 }
 
+/// Whether no pair that is not in the list can meet in a step, or has to take part in it.
+bool Pile::sees_far_enough() const {
+    return moved_ + std::max(2 * fastest_ * seconds_, slack_) <= skin_;
+}
+
 void Pile::choose_seconds() {
     seconds_ = longest_;
     for (int i = 0; i < kMostHalvings; ++i)
         if (fastest_closing_ * seconds_ > kStepOfRadius * smallest_radius_) seconds_ *= 0.5;
     slack_ = kLeastSlack * smallest_radius_ + fastest_closing_ * seconds_ +
              world_.scene.simulation.gravity.norm() * seconds_ * seconds_;
+    // Of balls that cross even the widest skin in a step.
+    for (int i = 0; i < kMostHalvings; ++i)
+        if (moved_ == 0 && 2 * fastest_ * seconds_ > skin_) seconds_ *= 0.5;
 }
 
 /// Whether a pair brings a new ball into the step, or wakes one: then its own pairs have to be
@@ -244,9 +254,12 @@ void Pile::gather(double now, const Links& links, std::vector<int>& taken) {
     double fastest = 0;
     for (int i = 0; i < static_cast<int>(balls_.size()); ++i)
         if (!of(i).asleep) fastest = std::max(fastest, velocity_of(i, now).squaredNorm());
-    const double step = (std::sqrt(fastest) + slow_speed()) * longest_;
-    moved_ += 2 * step;
-    if (moved_ + 2 * step > skin_) find_pairs(now, links);
+    fastest = std::sqrt(fastest) + slow_speed();
+    moved_ += 2 * std::max(fastest, fastest_) * (now - gathered_);
+    fastest_ = fastest;
+    gathered_ = now;
+    // Most likely the step is about as long as the last one.
+    if (moved_ + 2 * fastest_ * seconds_ > skin_) find_pairs(now, links);
     std::sort(wanted_.begin(), wanted_.end());
     for (const int ball : wanted_) {
         if (!of(ball).wanted || (of(ball).member && !of(ball).asleep)) continue;
@@ -261,7 +274,13 @@ void Pile::gather(double now, const Links& links, std::vector<int>& taken) {
     for (bool more = true; more;) {
         for (; seen < pairs_.size(); ++seen) look_at(pairs_[seen], now);
         choose_seconds();
-        more = false;
+        more = moved_ > 0 && !sees_far_enough();
+        if (more) {
+            find_pairs(now, links);
+            fastest_closing_ = 0;
+            seen = 0;
+            continue;
+        }
         const auto awake = [this](int ball) { return of(ball).member && !of(ball).asleep; };
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             const PilePair& at = pairs_[i];

@@ -11,7 +11,7 @@ namespace {
 
 /// Sweeps for the impacts of a step, and for its forces; the forces start from those of the step
 /// before, so that a pile goes on converging while it comes to rest.
-constexpr PileSweeps kImpactSweeps{60, 1e-5};
+constexpr PileSweeps kImpactSweeps{60, 1e-4};
 constexpr PileSweeps kForceSweeps{12, 1e-6};
 
 /// What closes faster than this part of slow_speed() is stopped by an impulse at the step's start,
