@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/failure.h"
+#include "sim/exact/refusal.h"
 #include "sim/exact/run.h"
 #include "sim/group/island_step.h"
 #include "sim/record/kept_limit.h"
@@ -86,7 +87,7 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
         });
         merge_places(world_, body.position, start, contacts, 0,
                      [](const Contact&, const Contact&) {});
-        if (approaches_at_start(i, contacts))
+        if (rules_.approaches_at_start(i, contacts))
             begin_flight(i, 0, start);  // into an impact at once
         else
             settle(i, 0, start, contacts, body.velocity.norm(), true);
@@ -138,8 +139,8 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
             step_pile(next.time);
         } else if (stuck) {
             if (standstill.is_hopeless())
-                refuse("more events at one instant than can be resolved", next.ball, next.partner,
-                       next.time);
+                refuse(world_, "more events at one instant than can be resolved", next.ball,
+                       next.partner, next.time);
             give_up_on(next);
         } else {
             take_together(next);
@@ -201,13 +202,6 @@ SimulationResult ExactRun::finish() {
                                        report_.given_up)}
             : Effect{false, "no contact was given up on"};
     return {std::move(motion_), std::move(report_)};
-}
-
-void ExactRun::refuse(const std::string& what, int ball, const Partner& partner, double now) const {
-    const std::string with = partner.index >= 0 ? fmt::format(" and {}", world_.name(partner)) : "";
-    throw Failure(FailureKind::kRun,
-                  fmt::format("method exact, at {} s, {}{}: {}; use simulation.method: fixed", now,
-                              world_.body(ball).name, with, what));
 }
 
 // ---- Events

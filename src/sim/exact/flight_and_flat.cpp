@@ -18,10 +18,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A bouncing series ends when its next hop is lower than this fraction of the ball's radius, or of
-/// its distance from the origin if that is larger: below it the hop drowns in the place's rounding.
-constexpr double kLastHop = 1e-12;
-
 /// Seconds until the contact point leaves the face that the ball is on. A ball that goes along a
 /// border has left when it is beyond the border's width.
 double seconds_on(const PlaneShape&, const Piece&, double, const Vec3&, double) {
@@ -70,46 +66,11 @@ FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& conta
 // ---- What a ball does next
 // -----------------------------------------------------------------------
 
-/// A slip is none if it is rounding of the velocities, or ends within the rounding of the time.
-double ExactRun::slip_tolerance(int ball, double now, const Velocities& velocities) const {
-    const double time_rounding = 8 * std::numeric_limits<double>::epsilon() * now;
-    return kStillFraction *
-               (velocities.linear.norm() + world_.ball(ball).radius * velocities.spin.norm()) +
-           time_rounding * world_.scene.simulation.gravity.norm();
-}
-
-double ExactRun::hop_limit(int ball, const Vec3& position) const {
-    return kLastHop * std::max(world_.ball(ball).radius, position.cwiseAbs().maxCoeff());
-}
-
-/// What gravity presses with along a normal, m/s^2; 0 where that is none, but for rounding.
-double ExactRun::pressing_gravity(const Vec3& normal) const {
-    const Vec3& g = world_.scene.simulation.gravity;
-    const double g_n = -g.dot(normal);
-    return g_n > 1e-14 * g.norm() ? g_n : 0;
-}
-
 /// The velocities with which a ball goes on in a contact whose last bounces are summed.
 Velocities ExactRun::landed(int ball, double now, const Contact& contact,
                             const Velocities& velocities, double separation) const {
     return without_bounces(flat_contact(world_, ball, contact), velocities, separation,
-                           slip_tolerance(ball, now, velocities));
-}
-
-/// Whether a contact that does not approach is a lasting one; `bounce_time_left` [s] is how long
-/// its remaining bounces take: 2 v / (g_n (1 - e)), v the separation speed.
-bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
-                     double& bounce_time_left) const {
-    const double g_n = pressing_gravity(c.normal);
-    if (!c.other.is_surface || g_n == 0) return false;
-    const double v = std::max(c.separation_speed, 0.0);
-    bounce_time_left = 0;
-    if (v <= kStillFraction * speed_scale) return true;
-    const Vec3 x = world_.position(ball, now);
-    if (v * v / (2 * g_n) >= hop_limit(ball, x)) return false;
-    // Hops that drown in rounding are a contact for any coefficient; only for 1 they have no end.
-    if (c.restitution < 1) bounce_time_left = 2 * v / (g_n * (1 - c.restitution));
-    return true;
+                           rules_.slip_tolerance(ball, now, velocities));
 }
 
 /// The separation speed whose friction a contact gives back (without_bounces()): that of its own
@@ -123,17 +84,6 @@ double ExactRun::bounce_of(const Contact& c) const {
                     hit->tangential_impulse / (c.friction * world_.ball(c.ball).mass));
 }
 
-/// Whether one of the contacts that a ball has at the start is an impact: it approaches, and faster
-/// than in the bounces that would be summed.
-bool ExactRun::approaches_at_start(int ball, const std::vector<Contact>& contacts) const {
-    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-        const double v = -c.separation_speed;
-        const double g_n = -world_.scene.simulation.gravity.dot(c.normal);
-        return v > kStillFraction * world_.body(ball).velocity.norm() &&
-               !(v * v / 2 < g_n * hop_limit(ball, world_.body(ball).position));
-    });
-}
-
 void ExactRun::settle(int ball, double now, const Velocities& velocities,
                       const std::vector<Contact>& contacts, double speed_scale, bool at_start) {
     const Contact* lasting = nullptr;
@@ -141,14 +91,14 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
     bool many = false;
     for (const Contact& c : contacts) {
         double bounce_time = 0;
-        if (!lasts(c, ball, now, speed_scale, bounce_time)) continue;
+        if (!rules_.lasts(c, ball, now, speed_scale, bounce_time)) continue;
         if (lasting != nullptr) many = true;
-        if (many) note_landing(*lasting, now, now + bounce_time_left);
+        if (many) notes_.note_landing(*lasting, now, now + bounce_time_left);
         lasting = &c;
         bounce_time_left = bounce_time;
     }
     if (many) {
-        note_landing(*lasting, now, now + bounce_time_left);
+        notes_.note_landing(*lasting, now, now + bounce_time_left);
         enter_island(ball, now, velocities);
         return;
     }
@@ -193,7 +143,7 @@ bool ExactRun::can_hold(int ball, double now, const Contact& contact,
     return contact.other.is_surface &&
            is_flat(world_.surface(contact.other.index).shape, contact.normal) &&
            flat_motion(flat_contact(world_, ball, contact), velocities,
-                       slip_tolerance(ball, now, velocities))
+                       rules_.slip_tolerance(ball, now, velocities))
                .has_value();
 }
 
@@ -201,8 +151,9 @@ bool ExactRun::can_hold(int ball, double now, const Contact& contact,
 void ExactRun::begin_flat_contact(int ball, double now, const Contact& contact,
                                   const Velocities& velocities, double bounce_time_left,
                                   bool at_start) {
-    const std::optional<FlatMotion> motion = flat_motion(
-        flat_contact(world_, ball, contact), velocities, slip_tolerance(ball, now, velocities));
+    const std::optional<FlatMotion> motion =
+        flat_motion(flat_contact(world_, ball, contact), velocities,
+                    rules_.slip_tolerance(ball, now, velocities));
     CAROM_CHECK(motion.has_value(), ==, true);
 
     ExactBall& b = world_.ball(ball);

@@ -85,7 +85,8 @@ void ExactRun::begin_integrated_on(int ball, double now, const Contact& contact,
     phase.contact.friction = contact.friction;
     phase.next_seconds = 0;
     project(phase.contact, ContactMode::kSmooth, phase.state);
-    const SingleContactForces forces = choose_mode(phase, slip_tolerance(ball, now, velocities));
+    const SingleContactForces forces =
+        choose_mode(phase, rules_.slip_tolerance(ball, now, velocities));
     if (!(forces.push > lift_off_threshold(phase.contact, phase.state.x))) {
         lift_off(ball, now, contact.other, forces.normal);
         return;
@@ -129,7 +130,7 @@ void ExactRun::lift_off(int ball, double now, const Partner& surface, const Vec3
         b.normal = normal;
         add_event(now, EventKind::kLeave, ball);
     }
-    note_separation(world_.contact_at(ball, surface, now), now);
+    notes_.note_separation(world_.contact_at(ball, surface, now), now);
     begin_flight(ball, now, {s.v, s.w});
 }
 

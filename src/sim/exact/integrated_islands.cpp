@@ -106,16 +106,8 @@ bool ExactRun::coupled_system(const std::vector<int>& island, double now, Couple
     return true;
 }
 
-/// Two that do not press any more have parted.
-void ExactRun::note_separation(const Contact& c, double now) {
-    std::erase_if(separations_, [now](const Separation& p) { return p.time < now; });
-    separations_.push_back({c.ball, c.other, now});
-    std::erase_if(landings_,
-                  [&c](const Landing& l) { return l.ball == c.ball && l.partner == c.other; });
-}
-
 void ExactRun::unlink(const Contact& c, double now) {
-    note_separation(c, now);
+    notes_.note_separation(c, now);
     const Link* link = links_.find(c.ball, c.other);
     if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
         add_contact_event(c, EventKind::kLeave, now);
@@ -136,14 +128,6 @@ bool ExactRun::slid_in_impact(const Contact& c, double now) const {
         if (e->kind == EventKind::kImpact && e->ball == c.ball && e->other == c.other)
             return e->tangential_impulse >= kSlides * c.friction * e->impulse;
     return false;
-}
-
-ExactRun::Separation* ExactRun::separation_of(const Contact& contact, double now) {
-    const auto found =
-        std::find_if(separations_.begin(), separations_.end(), [&](const Separation& p) {
-            return p.time == now && p.ball == contact.ball && p.partner == contact.other;
-        });
-    return found == separations_.end() ? nullptr : &*found;
 }
 
 /// After steps of ODE gaps are shut that a step does not see; if that lifts balls, their speeds
@@ -184,7 +168,7 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     std::array<bool, kMostCoupledContacts> gives_back{};
     bool lands = false;
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
-        if (landing_of(is.contacts[i], now) == nullptr) continue;
+        if (notes_.landing_of(is.contacts[i], now) == nullptr) continue;
         lands = true;
         gives_back[i] = now == 0 || slid_in_impact(is.contacts[i], now);  // the first hop had none
     }
@@ -195,7 +179,7 @@ bool ExactRun::integrate(const std::vector<int>& island, double now) {
     CoupledForces forces = coupled_forces(is.system, is.state);
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
         if (is.system.contacts[i].presses) continue;
-        const Separation* parting = separation_of(is.contacts[i], now);
+        const Separation* parting = notes_.separation_of(is.contacts[i], now);
         // What still approaches is left to a step.
         if (before.contacts[i].speed < -rounding_speed || (parting != nullptr && parting->pressed))
             return false;

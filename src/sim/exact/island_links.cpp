@@ -15,32 +15,11 @@ namespace {
 /// A kind of contact is stated when it has been the same for so many steps.
 constexpr int kKindSteps = 3;
 
-/// Two bodies of an island that is integrated touch up to this gap, as a fraction of the smaller
-/// radius: a hundred times the error of a piece.
-constexpr double kFineGap = 1e-10;
-
-/// A force of this fraction of a ball's weight is none: more than the rounding of the forces.
-constexpr double kBalanced = 1e-11;
-
 auto with(const Partner& partner) {
     return [&partner](const Link& link) { return link.partner == partner; };
 }
 
 }  // namespace
-
-void ExactRun::note_landing(const Contact& contact, double now, double event_due) {
-    std::erase_if(landings_, [&](const Landing& l) {
-        return l.time < now || (l.ball == contact.ball && l.partner == contact.other);
-    });
-    landings_.push_back({contact.ball, contact.other, now, event_due});
-}
-
-const ExactRun::Landing* ExactRun::landing_of(const Contact& contact, double now) const {
-    const auto found = std::find_if(landings_.begin(), landings_.end(), [&](const Landing& l) {
-        return l.time == now && l.ball == contact.ball && l.partner == contact.other;
-    });
-    return found == landings_.end() ? nullptr : &*found;
-}
 
 /// When the next row of a bouncing series that is over is due; infinite if none is.
 double ExactRun::next_contact_event(const std::vector<int>& island, double now) const {
@@ -51,31 +30,10 @@ double ExactRun::next_contact_event(const std::vector<int>& island, double now) 
     return next;
 }
 
-/// One of the two is in an island that ODE steps.
-bool ExactRun::is_coarse(const Contact& c) const {
-    return world_.ball(c.ball).coarse || (!c.other.is_surface && world_.ball(c.other.index).coarse);
-}
-
-/// Whether a contact of an island lasts: no gap, and no speed along the normal but for rounding.
-/// Where ODE steps, what gravity does in one step is the finest that a step can tell.
 bool ExactRun::stays_together(const Contact& contact, double now, const Link* link) {
-    if (landing_of(contact, now) != nullptr) return true;
-    if (!in_reach(contact)) return false;
-    Vec3 v = world_.velocities(contact.ball, now).linear;
-    double still = kStillFraction * v.norm() + world_.ball(contact.ball).rounding_speed;
-    if (!contact.other.is_surface) {
-        const Vec3 other = world_.velocities(contact.other.index, now).linear;
-        v -= other;
-        still += kStillFraction * other.norm() + world_.ball(contact.other.index).rounding_speed;
-    }
-    const double speed = v.dot(contact.normal);
-    if (Separation* parting = separation_of(contact, now); parting != nullptr) {
-        if (speed < -still) parting->pressed = true;
-        if (!parting->pressed) return false;
-    }
-    if (is_coarse(contact)) return std::abs(speed) <= slow_speed(world_);
-    if (std::abs(speed) <= still) return true;
-    return speed > 0 && link != nullptr && hops_on(contact, *link, speed, now);
+    const ContactRules::Together together = rules_.stays_together(contact, now, link);
+    if (together.presses_again) notes_.note_press(contact, now);
+    return together.lasts;
 }
 
 /// The impulse of a step on the first ball of a contact, for the links of both.
@@ -86,28 +44,6 @@ void ExactRun::note_push(const Contact& contact, const Vec3& push) {
     };
     note(contact.ball, contact.other);
     if (!contact.other.is_surface) note(contact.other.index, {false, contact.ball});
-}
-
-/// Whether what has just separated comes back by a hop that would be summed: the force that pressed
-/// the two tells how fast.
-bool ExactRun::hops_on(const Contact& contact, const Link& link, double separation,
-                       double now) const {
-    double inverse_mass = 1 / world_.ball(contact.ball).mass;
-    if (!contact.other.is_surface) inverse_mass += 1 / world_.ball(contact.other.index).mass;
-    const double a = link.push.dot(contact.normal) / kIslandStep * inverse_mass;
-    return a > kBalanced * world_.scene.simulation.gravity.norm() &&
-           separation * separation / (2 * a) <
-               hop_limit(contact.ball, world_.position(contact.ball, now));
-}
-
-bool ExactRun::in_reach(const Contact& contact) const {
-    double radius = world_.ball(contact.ball).radius;
-    if (!contact.other.is_surface)
-        radius = std::min(radius, world_.ball(contact.other.index).radius);
-    if (is_coarse(contact)) return -contact.depth < kLinkGap * radius + world_.place_rounding;
-    return -contact.depth < kFineGap * radius +
-                                world_.touch_tolerance(contact.point, contact.point, radius) +
-                                world_.place_rounding;
 }
 
 /// Forms the links of these balls anew. Returns them with all that hangs on them, sorted.
@@ -140,7 +76,8 @@ void ExactRun::add_link(const Contact& contact, int ball, const Partner& partner
     Link link;
     if (before != nullptr) link = *before;
     link.partner = partner;
-    if (const Landing* landing = landing_of(contact, now); landing != nullptr && before == nullptr)
+    if (const Landing* landing = notes_.landing_of(contact, now);
+        landing != nullptr && before == nullptr)
         link.event_due = landing->event_due;
     if (now == 0) link.from_start = true;
     links_.of(ball).push_back(link);

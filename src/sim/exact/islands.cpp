@@ -202,13 +202,13 @@ bool ExactRun::leave_island(int ball, double now) {
     const Contact contact = world_.contact_at(ball, link.partner, now);
     // It joined because it met something: where nothing else tells whether the contact presses, a
     // step does.
-    const bool presses = !world_.ball(ball).coarse && pressing_gravity(contact.normal) > 0 &&
-                         separation_of(contact, now) == nullptr;
+    const bool presses = !world_.ball(ball).coarse && rules_.pressing_gravity(contact.normal) > 0 &&
+                         notes_.separation_of(contact, now) == nullptr;
     const double v = velocities.linear.dot(contact.normal);
     // Nothing brings it back.
     const bool parts =
-        !world_.ball(ball).coarse && pressing_gravity(contact.normal) == 0 &&
-        landing_of(contact, now) == nullptr &&
+        !world_.ball(ball).coarse && rules_.pressing_gravity(contact.normal) == 0 &&
+        notes_.landing_of(contact, now) == nullptr &&
         v > kStillFraction * velocities.linear.norm() + world_.ball(ball).rounding_speed;
     if (world_.ball(ball).steps == 0 && !presses && !parts) return false;
     if (parts || (!presses && !link.pressed && v > 0)) {  // lifted off
@@ -224,8 +224,8 @@ bool ExactRun::leave_island(int ball, double now) {
     }
     links.clear();
     // What another impact has lifted has no friction of its own to give back.
-    const bool lands =
-        landing_of(contact, now) != nullptr && (v <= 0 || now == 0 || slid_in_impact(contact, now));
+    const bool lands = notes_.landing_of(contact, now) != nullptr &&
+                       (v <= 0 || now == 0 || slid_in_impact(contact, now));
     begin_contact(ball, now, contact,
                   lands ? landed(ball, now, contact, velocities, v) : velocities,
                   std::max(link.event_due - now, 0.0), link.from_start);
