@@ -37,8 +37,8 @@ ROOMS = {
         "fixed": {"contact", "record", "solve"},
         "world": {"collide", "contact", "law"},
         "group": {"solve", "world"},
-        "exact": {"collide", "group", "integrate", "law", "math", "record", "solve",
-                  "world"},
+        "phase": {"contact", "group", "integrate", "law", "math", "record", "solve", "world"},
+        "exact": {"collide", "group", "math", "phase", "record", "solve", "world"},
     },
     "render": {
         "gl": set(),

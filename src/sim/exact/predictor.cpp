@@ -17,20 +17,6 @@ namespace {
 /// An acceleration of this fraction of gravity is rounding.
 constexpr double kBalanced = 1e-11;
 
-/// Seconds until x + v s + a s^2 / 2 leaves (low, high), where it is now; at most `horizon`.
-double seconds_inside(double x, double v, double a, double low, double high, double horizon) {
-    if (a == 0) {
-        if (v == 0) return horizon;
-        return std::min(((v > 0 ? high : low) - x) / v, horizon);
-    }
-    for (const auto& gap :
-         {Polynomial{{x - low, v, 0.5 * a, 0, 0}}, Polynomial{{high - x, -v, -0.5 * a, 0, 0}}}) {
-        const Roots out = downward_crossings(gap, horizon);
-        if (out.count > 0) horizon = std::min(horizon, out.at[0]);
-    }
-    return horizon;
-}
-
 /// Of two partners met at the same instant the first one counts: surfaces, then balls in order.
 bool comes_first(const Partner& a, const Partner& b) {
     if (a.is_surface != b.is_surface) return a.is_surface;
@@ -68,30 +54,6 @@ Outlook Predictor::look_ahead(int ball, double now) const {
     if (!b.in_pile) look_at_surfaces(out, now);
     world_.for_each_near(ball, [&](int other) { look_at_ball(out, other, now); });
     return out;
-}
-
-double Predictor::leaves_cell(const Prediction& next, double now) const {
-    const int ball = next.ball;
-    if (!world_.grid || !world_.grid->in_cell(ball)) return std::numeric_limits<double>::infinity();
-    const Path path = world_.path(ball, now);
-    const double size = world_.grid->cell_size(), margin = world_.grid->margin();
-    const NeighbourGrid::Cell& cell = world_.grid->cell_of(ball);
-    double seconds = std::min(next.time, end_) - now;
-    const double until = seconds;
-    const Piece& piece = world_.ball(ball).piece;
-    for (int i = 0; i < 3; ++i) {
-        const auto low = static_cast<double>(cell[static_cast<std::size_t>(i)]) * size;
-        if (piece.curve) {
-            const HighDegreePath curved = high_degree_path(piece, now, std::max(seconds, 0.0));
-            seconds = seconds_above(curved, Vec3::Unit(i), low - margin);
-            seconds =
-                std::min(seconds, seconds_above(curved, -Vec3::Unit(i), -(low + size + margin)));
-            continue;
-        }
-        seconds = seconds_inside(path.position[i], path.velocity[i], path.acceleration[i],
-                                 low - margin, low + size + margin, seconds);
-    }
-    return seconds < until ? now + seconds : std::numeric_limits<double>::infinity();
 }
 
 // ---- One partner
@@ -202,7 +164,7 @@ void Predictor::look_at_ball(Outlook& out, int other, double now) const {
     // once, and so is what meets a sleeper.
     const bool pile = a.in_pile || b.in_pile;
     if (a.in_pile && b.in_pile) return;
-    if (pile && !(a.in_pile ? a : b).asleep) until = std::min(until, pile_step_);
+    if (pile && !(a.in_pile ? a : b).asleep) until = std::min(until, piles_.next_step());
     if (until <= now) return;
     // What ODE steps is known to the gap that makes a link.
     const bool stepped = !pile && (has_island(a) || has_island(b));

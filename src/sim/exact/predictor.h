@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "sim/exact/contact_rules.h"
+#include "sim/phase/contact_rules.h"
+#include "sim/phase/piles.h"
 
 namespace carom {
 
@@ -42,23 +43,15 @@ struct Outlook {
 /// Looks ahead along the balls' paths. Asking changes nothing: whoever asks acts on the answer.
 class Predictor {
   public:
-    /// `end` [s] of the motion; `pile_step` [s] of the pile's next step. All are looked at when it
-    /// is asked.
+    /// `end` [s] of the motion.
     Predictor(const ExactWorld& world, const Links& links, const InstantNotes& notes,
-              const ContactRules& rules, const double& pile_step, double end)
-        : world_(world),
-          links_(links),
-          notes_(notes),
-          rules_(rules),
-          pile_step_(pile_step),
-          end_(end) {}
+              const ContactRules& rules, const Piles& piles, double end)
+        : world_(world), links_(links), notes_(notes), rules_(rules), piles_(piles), end_(end) {}
 
     /// From `now` [s] on, whatever is known already. Not for a ball that the pile moves.
     Outlook look_ahead(int ball, double now) const;
     /// Another ball has come into reach: it comes first in `out`, or not.
     void look_at_ball(Outlook& out, int other, double now) const;
-    /// When the ball of a prediction leaves its cell of the grid [s]; infinite if not before that.
-    double leaves_cell(const Prediction& next, double now) const;
 
   private:
     void look_at_surfaces(Outlook& out, double now) const;
@@ -87,7 +80,7 @@ class Predictor {
     const Links& links_;
     const InstantNotes& notes_;
     const ContactRules& rules_;
-    const double& pile_step_;
+    const Piles& piles_;
     double end_;
 };
 

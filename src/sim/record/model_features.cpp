@@ -39,4 +39,19 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
     return effects;
 }
 
+void add_contact_effects(SimulationReport& report) {
+    report.effects["islands"] =
+        report.integrated + report.steps > 0
+            ? Effect{true, fmt::format("contacts act on each other: {} pieces integrated, {} steps "
+                                       "of ODE",
+                                       report.integrated, report.steps)}
+            : Effect{false, "no two lasting contacts of a ball at the same time"};
+    report.effects["last_resort"] =
+        report.given_up > 0
+            ? Effect{true, fmt::format("{} times a contact that could not be integrated, or whose "
+                                       "events had no end, was stepped by ODE for a while",
+                                       report.given_up)}
+            : Effect{false, "no contact was given up on"};
+}
+
 }  // namespace carom

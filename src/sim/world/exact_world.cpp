@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/failure.h"
 #include "geometry/nearest.h"
 #include "sim/collide/time_of_impact_high_degree.h"
 
@@ -21,9 +22,13 @@ constexpr double kReach = 1e-5;
 /// Up to this many materials all pairs of them are computed at the start.
 constexpr std::size_t kCachedMaterials = 256;
 
+/// The grid is built anew when its cells should be larger or smaller by this factor.
+constexpr double kMisfit = 1.5;
+
 }  // namespace
 
-ExactWorld::ExactWorld(const Scene& s) : scene(s), pairs(s), balls(s.balls.size()) {
+ExactWorld::ExactWorld(const Scene& s)
+    : scene(s), pairs(s), balls(s.balls.size()), log(s.balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Ball& body = s.balls[i];
         balls[i].radius = body.radius;
@@ -60,6 +65,38 @@ void ExactWorld::build_grid(double t) {
     }
     grid.emplace(positions, radii);
     for (NearList& list : lists_) list.ball = -1;
+}
+
+bool ExactWorld::refit_grid(double t) {
+    Vec3 low = position(0, t), high = low;
+    for (int i = 1; i < static_cast<int>(balls.size()); ++i) {
+        const Vec3 x = position(i, t);
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const double ratio = grid->cell_size_for(low, high) / grid->cell_size();
+    if (ratio < kMisfit && ratio > 1 / kMisfit) return false;
+    build_grid(t);
+    for (int i = 0; i < static_cast<int>(balls.size()); ++i) renew(i);
+    return true;
+}
+
+void ExactWorld::follow_cell(int i, double t) {
+    if (!grid || !grid->in_cell(i)) return;
+    const NeighbourGrid::Cell cell = grid->cell_at(position(i, t));
+    if (cell != grid->cell_of(i)) grid->move(i, cell);
+}
+
+void ExactWorld::begin_piece(int i, double now, const BallState& at, const Vec3& acceleration,
+                             const Vec3& spin_rate, OptionalCurve curve) {
+    ExactBall& b = ball(i);
+    b.piece = {now,     at.position, at.velocity, acceleration, std::move(curve), at.orientation,
+               at.spin, spin_rate};
+    renew(i);
+    if (!at.position.allFinite() || !at.velocity.allFinite() || !at.spin.allFinite())
+        throw Failure(FailureKind::kRun,
+                      fmt::format("the state of ball {} is not finite at {} s", body(i).name, now));
+    log.append(i, b.piece);
 }
 
 const std::vector<int>& ExactWorld::near(int ball_index) const {

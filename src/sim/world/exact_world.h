@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "motion/motion.h"
+#include "motion/motion_log.h"
 #include "scene/scene.h"
 #include "sim/collide/neighbour_grid.h"
 #include "sim/collide/surface_tree.h"
@@ -69,6 +70,15 @@ class ExactWorld {
     /// The same without the orientation, which is what costs time.
     Vec3 position(int i, double t) const;
     Velocities velocities(int i, double t) const;
+    /// What the ball does from `now` [s] on, until it begins another piece. Throws Failure(kRun)
+    /// where its state is not finite.
+    void begin_piece(int i, double now, const BallState& at, const Vec3& acceleration,
+                     const Vec3& spin_rate, OptionalCurve curve = {});
+    /// Its piece goes on, but predictions that rest on it do not hold any more.
+    void renew(int i) { ball(i).stamp = next_stamp_++; }
+    /// All pieces that balls have begun.
+    MotionLog log;
+
     /// The path of a ball's centre from t on.
     Path path(int i, double t) const;
     std::string name(const Partner& partner) const;
@@ -89,6 +99,11 @@ class ExactWorld {
     /// Empty while balls are few: then each looks at all others.
     std::optional<NeighbourGrid> grid;
     void build_grid(double t);
+    /// Builds the grid anew where balls have spread or gathered so far that its cells do not fit
+    /// any more. Whether it did: then all predictions have to be made anew.
+    bool refit_grid(double t);
+    /// The ball is moved to the cell that it is in at t.
+    void follow_cell(int i, double t);
 
     /// Calls f(other) for every ball that could touch `ball`, and maybe for more. An impact asks
     /// twice for the balls near it: once who else is touched, then what comes next.
@@ -184,6 +199,7 @@ class ExactWorld {
     const std::vector<int>& near(int ball_index) const;
     void set_pair(Contact& contact, int material) const;
 
+    std::uint64_t next_stamp_ = 1;
     mutable std::array<NearList, 4> lists_;  ///< the last ones, in turn
     mutable std::size_t at_list_ = 0;
     /// Per ball, a box where no bounded surface is: that of its last flight that met none. The next

@@ -52,6 +52,17 @@ class Links {
         return found == links.end() ? nullptr : &*found;
     }
 
+    /// The links of a ball end, on both sides.
+    void drop(int ball) {
+        for (const Link& link : of(ball))
+            if (!link.partner.is_surface) unlink(link.partner.index, {false, ball});
+        of(ball).clear();
+    }
+    /// A ball's own link to a partner ends, that of the partner to it stays.
+    void unlink(int ball, const Partner& partner) {
+        std::erase_if(of(ball), [&](const Link& link) { return link.partner == partner; });
+    }
+
   private:
     std::vector<std::vector<Link>> of_;
 };

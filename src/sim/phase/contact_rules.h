@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/exact/instant_notes.h"
+#include "sim/phase/instant_notes.h"
 #include "sim/world/exact_world.h"
 #include "sim/world/links.h"
 

@@ -1,4 +1,4 @@
-#include "sim/exact/contact_rules.h"
+#include "sim/phase/contact_rules.h"
 
 #include <algorithm>
 #include <cmath>

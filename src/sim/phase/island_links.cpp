@@ -1,10 +1,10 @@
-// Which contacts of an island last, and what the events say about them.
+#include "sim/phase/island_links.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "sim/exact/run.h"
 #include "sim/group/island_step.h"
 #include "sim/world/seams.h"
 
@@ -12,8 +12,14 @@ namespace carom {
 
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// A kind of contact is stated when it has been the same for so many steps.
 constexpr int kKindSteps = 3;
+
+/// Links that one impact can pass through at once, by Newton's law. What is left beyond them is
+/// solved by the next step, without rebound.
+constexpr std::size_t kMostCoupled = 40;
 
 auto with(const Partner& partner) {
     return [&partner](const Link& link) { return link.partner == partner; };
@@ -21,23 +27,70 @@ auto with(const Partner& partner) {
 
 }  // namespace
 
-/// When the next row of a bouncing series that is over is due; infinite if none is.
-double ExactRun::next_contact_event(const std::vector<int>& island, double now) const {
-    double next = std::numeric_limits<double>::infinity();
+void IslandLinks::enter(int ball, double now, const Velocities& velocities) {
+    ExactBall& b = world_.ball(ball);
+    if (b.surface >= 0) {
+        Link link;
+        link.partner = {true, b.surface};
+        link.last = world_.contact_at(ball, link.partner, now);
+        link.stated = std::isinf(b.event_due) ? b.kind : EventKind::kLeave;
+        if (!std::isinf(b.event_due)) link.event_due = b.event_due;
+        links_.of(ball) = {link};
+    }
+    BallState at = world_.state(ball, now);
+    at.velocity = velocities.linear;
+    at.spin = velocities.spin;
+    // Where balls are many, what they join is most likely stepped.
+    if (!has_island(b)) b.coarse = has_many_balls(world_);
+    b.surface = -1;
+    b.stepped = true;
+    b.asleep = false;
+    b.steps = b.calm_steps = b.slow_steps = 0;
+    b.stepped_seconds = 0;
+    b.event_due = kInfinity;
+    b.phase_end = now;
+    world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+}
+
+std::vector<Contact> IslandLinks::linked_contacts(const std::vector<Contact>& seeds,
+                                                  double now) const {
+    std::vector<Contact> all = seeds;
+    std::vector<int> balls;
+    const auto reach = [&balls](int ball) {
+        if (std::find(balls.begin(), balls.end(), ball) == balls.end()) balls.push_back(ball);
+    };
+    for (const Contact& seed : seeds) {
+        reach(seed.ball);
+        if (!seed.other.is_surface) reach(seed.other.index);
+    }
+    for (std::size_t k = 0; k < balls.size(); ++k)
+        for (const Link& link : links_.of(balls[k])) {
+            if (all.size() >= seeds.size() + kMostCoupled) return all;
+            const Contact c = world_.contact_at(balls[k], link.partner, now);
+            const bool known = std::any_of(all.begin(), all.end(), [&c](const Contact& other) {
+                return other.ball == c.ball && other.other == c.other;
+            });
+            if (!known) all.push_back(c);
+            if (!link.partner.is_surface) reach(link.partner.index);
+        }
+    return all;
+}
+
+double IslandLinks::next_contact_event(const std::vector<int>& island, double now) const {
+    double next = kInfinity;
     for (const int ball : island)
         for (const Link& link : links_.of(ball))
             if (row_waits(link, now)) next = std::min(next, link.event_due);
     return next;
 }
 
-bool ExactRun::stays_together(const Contact& contact, double now, const Link* link) {
+bool IslandLinks::stays_together(const Contact& contact, double now, const Link* link) {
     const ContactRules::Together together = rules_.stays_together(contact, now, link);
     if (together.presses_again) notes_.note_press(contact, now);
     return together.lasts;
 }
 
-/// The impulse of a step on the first ball of a contact, for the links of both.
-void ExactRun::note_push(const Contact& contact, const Vec3& push) {
+void IslandLinks::note_push(const Contact& contact, const Vec3& push) {
     const auto note = [&](int ball, const Partner& partner) {
         for (Link& link : links_.of(ball))
             if (link.partner == partner) link.push = push;
@@ -46,8 +99,20 @@ void ExactRun::note_push(const Contact& contact, const Vec3& push) {
     if (!contact.other.is_surface) note(contact.other.index, {false, contact.ball});
 }
 
-/// Forms the links of these balls anew. Returns them with all that hangs on them, sorted.
-std::vector<int> ExactRun::link_neighbours(std::vector<int> balls, double now) {
+void IslandLinks::unlink(const Contact& c, double now) {
+    notes_.note_separation(c, now);
+    const Link* link = links_.find(c.ball, c.other);
+    if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
+        log_.add(EventKind::kLeave, c, now);
+    const auto forget = [this](int ball, const Partner& partner) {
+        links_.unlink(ball, partner);
+        world_.ball(ball).steps = std::max(world_.ball(ball).steps, 1);
+    };
+    forget(c.ball, c.other);
+    if (!c.other.is_surface) forget(c.other.index, {false, c.ball});
+}
+
+std::vector<int> IslandLinks::link_neighbours(std::vector<int> balls, double now) {
     std::set<int> seen(balls.begin(), balls.end());
     const auto reach = [&](int ball) {
         if (seen.insert(ball).second) balls.push_back(ball);
@@ -56,7 +121,7 @@ std::vector<int> ExactRun::link_neighbours(std::vector<int> balls, double now) {
         const int ball = balls[k];
         const BallState at = world_.state(ball, now);
         // What rested, flew or had a closed form is stepped from now on.
-        if (!world_.ball(ball).stepped) enter_island(ball, now, {at.velocity, at.spin});
+        if (!world_.ball(ball).stepped) enter(ball, now, {at.velocity, at.spin});
         std::vector<Link> before = std::move(links_.of(ball));
         links_.of(ball).clear();
         for (const Link& link : before)
@@ -71,8 +136,8 @@ std::vector<int> ExactRun::link_neighbours(std::vector<int> balls, double now) {
 }
 
 /// The link of a contact that lasts, as it was if it is known.
-void ExactRun::add_link(const Contact& contact, int ball, const Partner& partner,
-                        const Link* before, double now) {
+void IslandLinks::add_link(const Contact& contact, int ball, const Partner& partner,
+                           const Link* before, double now) {
     Link link;
     if (before != nullptr) link = *before;
     link.partner = partner;
@@ -84,7 +149,7 @@ void ExactRun::add_link(const Contact& contact, int ball, const Partner& partner
 }
 
 /// A link of `before` that goes on with another surface in the same place keeps what it has stated.
-void ExactRun::link_near(int ball, double now, std::vector<Link>& before) {
+void IslandLinks::link_near(int ball, double now, std::vector<Link>& before) {
     const auto known = [&before](const Partner& partner) -> const Link* {
         const auto found = std::find_if(before.begin(), before.end(), with(partner));
         return found == before.end() ? nullptr : &*found;
@@ -120,8 +185,13 @@ void ExactRun::link_near(int ball, double now, std::vector<Link>& before) {
 // ---- Rows
 // -----------------------------------------------------------------------------------------
 
-void ExactRun::note_link(Link& link, const Contact& contact, bool calm, double calm_speed,
-                         double now) {
+void IslandLinks::note_step(const Contact& contact, bool calm, double calm_speed, double now) {
+    for (Link& link : links_.of(contact.ball))
+        if (link.partner == contact.other) note_link(link, contact, calm, calm_speed, now);
+}
+
+void IslandLinks::note_link(Link& link, const Contact& contact, bool calm, double calm_speed,
+                            double now) {
     link.pressed = contact.impulse > 0;
     if (!link.pressed) return;
     link.last = contact;
@@ -134,30 +204,19 @@ void ExactRun::note_link(Link& link, const Contact& contact, bool calm, double c
         link.candidate_steps = 0;
     }
     if (++link.candidate_steps < kKindSteps || kind == link.stated || row_waits(link, now)) return;
-    if (!link.from_start) add_contact_event(contact, kind, now);
+    if (!link.from_start) log_.add(kind, contact, now);
     link.from_start = false;
     link.stated = kind;
 }
 
 /// Links of a ball that are no more. Of two balls, the scene's first one writes the row.
-void ExactRun::note_departures(int ball, const std::vector<Link>& before, double now) {
+void IslandLinks::note_departures(int ball, const std::vector<Link>& before, double now) {
     for (const Link& link : before) {
         if (links_.linked(ball, link.partner)) continue;
         if (!link.partner.is_surface && link.partner.index < ball) continue;
         if (link.stated != EventKind::kLeave || (link.from_start && link.pressed))
-            add_contact_event(world_.contact_at(ball, link.partner, now), EventKind::kLeave, now);
+            log_.add(EventKind::kLeave, world_.contact_at(ball, link.partner, now), now);
     }
-}
-
-void ExactRun::add_contact_event(const Contact& contact, EventKind kind, double now) {
-    Event e;
-    e.time = now;
-    e.ball = contact.ball;
-    e.other = contact.other;
-    e.kind = kind;
-    e.point = contact.point;
-    e.normal = contact.normal;
-    motion_.events.push_back(e);
 }
 
 }  // namespace carom

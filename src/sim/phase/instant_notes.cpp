@@ -1,4 +1,4 @@
-#include "sim/exact/instant_notes.h"
+#include "sim/phase/instant_notes.h"
 
 #include <algorithm>
 
