@@ -51,7 +51,7 @@ Outlook Predictor::look_ahead(int ball, double now) const {
     out.next.time = std::min(b.phase_end, b.event_due);
     out.next.ball = ball;
     out.next.stamp = b.stamp;
-    if (!b.in_pile) look_at_surfaces(out, now);
+    if (!in_pile(b.phase())) look_at_surfaces(out, now);
     world_.for_each_near(ball, [&](int other) { look_at_ball(out, other, now); });
     return out;
 }
@@ -91,7 +91,7 @@ void Predictor::look_at_surface(Outlook& out, int surface, double now) const {
     const Partner partner{true, surface};
     const double until = std::min(out.next.time, end_);
     if (until <= now) return;
-    const bool stepped = has_island(world_.ball(ball));
+    const bool stepped = has_island(world_.ball(ball).phase());
     if (stepped && (links_.linked(ball, partner) || is_beside_link(ball, surface, now) ||
                     joins_island(out, partner, now)))
         return;
@@ -162,12 +162,13 @@ void Predictor::look_at_ball(Outlook& out, int other, double now) const {
     double until = std::min(out.next.time, end_);
     // The steps of a pile see what is near. What is sent its way between two of them is caught at
     // once, and so is what meets a sleeper.
-    const bool pile = a.in_pile || b.in_pile;
-    if (a.in_pile && b.in_pile) return;
-    if (pile && !(a.in_pile ? a : b).asleep) until = std::min(until, piles_.next_step());
+    const bool pile = in_pile(a.phase()) || in_pile(b.phase());
+    if (in_pile(a.phase()) && in_pile(b.phase())) return;
+    if (a.phase() == Phase::kPile || b.phase() == Phase::kPile)
+        until = std::min(until, piles_.next_step());
     if (until <= now) return;
     // What ODE steps is known to the gap that makes a link.
-    const bool stepped = !pile && (has_island(a) || has_island(b));
+    const bool stepped = !pile && (has_island(a.phase()) || has_island(b.phase()));
     if (stepped && (links_.linked(ball, partner) || joins_island(out, partner, now))) return;
     const double from = stepped ? now : std::max(a.piece.start, b.piece.start);
     const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
@@ -226,7 +227,7 @@ bool Predictor::rests_against(int ball, const Partner& partner, double now) cons
 /// A ball in flight along a surface to which gravity is parallel: only rounding presses.
 bool Predictor::flies_along(int ball, const Partner& partner, double now) const {
     const ExactBall& b = world_.ball(ball);
-    return partner.is_surface && !b.stepped && b.surface < 0 && !b.piece.curve &&
+    return partner.is_surface && b.phase() != Phase::kIsland && b.surface < 0 && !b.piece.curve &&
            rules_.pressing_gravity(world_.contact_at(ball, partner, now).normal) == 0;
 }
 

@@ -9,7 +9,8 @@ namespace carom {
 
 bool RestWatch::at_rest(int ball) const {
     const ExactBall& b = world_.ball(ball);
-    return b.asleep || (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.event_due));
+    return is_asleep(b.phase()) ||
+           (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.event_due));
 }
 
 bool RestWatch::all_at_rest() {
@@ -27,7 +28,7 @@ bool RestWatch::all_at_rest() {
 /// What a ball does, for people.
 std::string RestWatch::doing(int ball) const {
     const ExactBall& b = world_.ball(ball);
-    if (b.in_pile) return "moves in a pile";
+    if (in_pile(b.phase())) return "moves in a pile";
     const auto on = [this](const char* verb, const Partner& partner) {
         return std::string(verb) + " on " + world_.name(partner);
     };
@@ -36,7 +37,7 @@ std::string RestWatch::doing(int ball) const {
         if (!std::isinf(b.event_due)) return on("bounces", surface);
         return on(b.kind == EventKind::kRoll ? "rolls" : "slides", surface);
     }
-    if (!b.stepped) return "flies";
+    if (b.phase() != Phase::kIsland) return "flies";
     std::string text = "moves";
     for (const Link& link : links_.of(ball))
         text += (&link == &links_.of(ball).front() ? " on " : " and ") + world_.name(link.partner);

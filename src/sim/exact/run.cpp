@@ -143,7 +143,7 @@ void ExactRun::process_instant(double now) {
     const std::size_t met = seeds_.all().size();
     // What hangs on a link is met as well.
     const auto has_links = [this](int ball) {
-        return has_island(world_.ball(ball)) && !links_.of(ball).empty();
+        return has_island(world_.ball(ball).phase()) && !links_.of(ball).empty();
     };
     const auto linked = [&has_links](const Contact& c) {
         return has_links(c.ball) || (!c.other.is_surface && has_links(c.other.index));
@@ -164,7 +164,7 @@ void ExactRun::collect(const Prediction& p, double now) {
     const ExactBall* partner = p.partner.is_surface ? nullptr : &world_.ball(p.partner.index);
     if (p.kind == PredictionKind::kCell) {
         change_cell(p.ball, now);
-    } else if (p.kind == PredictionKind::kPhase && b.stepped) {
+    } else if (p.kind == PredictionKind::kPhase && b.phase() == Phase::kIsland) {
         stepped_.push_back(p.ball);
     } else if (p.kind == PredictionKind::kPhase) {
         if (const auto velocities = held_.end_phase(p.ball, now))
@@ -172,8 +172,8 @@ void ExactRun::collect(const Prediction& p, double now) {
         predict(p.ball, now);
     } else if (partner != nullptr && partner->stamp != p.partner_stamp) {
         predict(p.ball, now);  // the partner has moved on since
-    } else if (partner != nullptr && (b.in_pile || partner->in_pile)) {
-        piles_.join(b.in_pile ? p.partner.index : p.ball, now);
+    } else if (partner != nullptr && (in_pile(b.phase()) || in_pile(partner->phase()))) {
+        piles_.join(in_pile(b.phase()) ? p.partner.index : p.ball, now);
     } else {
         if (partner != nullptr) held_.put_on_surface(p.partner.index, now);
         seeds_.add(held_.meet(p.ball, p.partner, p.seconds, now));
@@ -218,7 +218,7 @@ void ExactRun::step_pile(double now) {
 /// Events of a ball that have no end in time: it is stepped, as is what it meets.
 void ExactRun::give_up_on(const Prediction& p) {
     for (const int ball : {p.ball, p.partner.is_surface ? -1 : p.partner.index}) {
-        if (ball < 0 || world_.ball(ball).in_pile) continue;
+        if (ball < 0 || in_pile(world_.ball(ball).phase())) continue;
         islands_.enter(ball, p.time, held_.give_up(ball, p.time));
         predict(ball, p.time);
     }
@@ -257,8 +257,7 @@ void ExactRun::take_together(const Prediction& next) {
 }
 
 void ExactRun::predict(int ball, double now) {
-    const ExactBall& b = world_.ball(ball);
-    if (b.in_pile && !b.asleep) return;
+    if (world_.ball(ball).phase() == Phase::kPile) return;
     world_.follow_cell(ball, now);
     act_on(predictor_.look_ahead(ball, now), now);
 }

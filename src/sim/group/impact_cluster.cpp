@@ -153,7 +153,7 @@ void ImpactCluster::touch_balls(int ball) {
     const double radius = world_.ball(ball).radius;
     world_.for_each_near(ball, [&](int other) {
         if (has(other) && index_of(other) < place) return;  // looked at from the other side
-        if (world_.ball(other).in_pile) return;             // met by steps of its own
+        if (in_pile(world_.ball(other).phase())) return;    // met by steps of its own
         // Far pairs are the common case: a little more than the sum of the radii excludes them.
         const double reach = 1.001 * (radius + world_.ball(other).radius);
         const Vec3 y = world_.position(other, time_);

@@ -69,13 +69,10 @@ Velocities ClosedForms::landed(int ball, double now, const Contact& contact,
 }
 
 void ClosedForms::begin_flight(int ball, double now, const Velocities& velocities) {
-    ExactBall& b = world_.ball(ball);
     BallState at = world_.state(ball, now);
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
-    b.surface = -1;
-    b.stepped = b.asleep = b.coarse = false;
-    b.phase_end = b.event_due = kInfinity;
+    world_.set_phase(ball, Phase::kFlight);
     world_.begin_piece(ball, now, at, world_.scene.simulation.gravity, Vec3::Zero());
 }
 
@@ -100,7 +97,7 @@ void ClosedForms::begin_flat_contact(int ball, double now, const Contact& contac
     at.position += contact.depth * contact.normal;  // what rounding left of the gap
     at.velocity = motion->velocities.linear;
     at.spin = motion->velocities.spin;
-    hold(ball, now, contact.other.index, contact.normal, motion->kind, onset);
+    hold(ball, now, Phase::kFlat, contact.other.index, contact.normal, motion->kind, onset);
     world_.begin_piece(ball, now, at, motion->acceleration, motion->spin_rate);
 
     const double on_face = seconds_on_face(
@@ -109,14 +106,14 @@ void ClosedForms::begin_flat_contact(int ball, double now, const Contact& contac
     b.phase_end = now + std::min(on_face, motion->seconds);
 }
 
-void ClosedForms::hold(int ball, double now, int surface, const Vec3& normal, EventKind kind,
-                       const Onset& onset) {
+void ClosedForms::hold(int ball, double now, Phase phase, int surface, const Vec3& normal,
+                       EventKind kind, const Onset& onset) {
     ExactBall& b = world_.ball(ball);
     const bool same = b.surface == surface && b.kind == kind;
     b.surface = surface;
     b.kind = kind;
     b.normal = normal;
-    b.stepped = b.asleep = b.coarse = false;
+    world_.set_phase(ball, phase);
     if (b.event_due < kInfinity || onset.at_start || same) return;
     if (onset.bounce_time_left > 0)
         b.event_due = now + onset.bounce_time_left;

@@ -27,9 +27,9 @@ class ClosedForms {
     /// The velocities with which a ball goes on in a contact whose last bounces are summed.
     Velocities landed(int ball, double now, const Contact& contact, const Velocities& velocities,
                       double separation) const;
-    /// The ball is held by a surface, with this normal and kind of contact. A change of kind is an
-    /// event; that of a contact that begins waits for the end of its bounces.
-    void hold(int ball, double now, int surface, const Vec3& normal, EventKind kind,
+    /// The ball is held by a surface, kFlat or kIntegrated, with this normal and kind of contact. A
+    /// change of kind is an event; that of a contact that begins waits for the end of its bounces.
+    void hold(int ball, double now, Phase phase, int surface, const Vec3& normal, EventKind kind,
               const Onset& onset);
 
   private:

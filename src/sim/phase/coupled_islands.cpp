@@ -203,7 +203,6 @@ void CoupledIslands::begin_pieces(const std::vector<int>& island, double now,
         ++ball.steps;
         ball.rounding_speed = rounding_speed;
         ball.phase_end = now + piece.seconds;
-        ball.stepped = true;
         ball.coarse = false;
         world_.begin_piece(island[b], now, at, piece.balls[b].acceleration,
                            piece.balls[b].spin_rate,

@@ -54,7 +54,7 @@ HeldBalls::Handover HeldBalls::end_phase(int ball, double now) {
         return {};
     }
     const Velocities velocities = world_.velocities(ball, now);
-    if (b.piece.curve) return end_integrated(ball, now);
+    if (b.phase() == Phase::kIntegrated) return end_integrated(ball, now);
     const Contact c = world_.contact_at(ball, {true, b.surface}, now);
     if (!b.leaves_at_end) return begin(ball, now, c, velocities, {});
     if (const auto over = go_over_seam(ball, now, velocities)) return *over;
@@ -121,7 +121,7 @@ HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const C
     const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
     Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
     const bool rests = still && pull.norm() <= kBalanced * gravity.norm();
-    forms_.hold(ball, now, contact.other.index, forces.normal,
+    forms_.hold(ball, now, Phase::kIntegrated, contact.other.index, forces.normal,
                 rests ? EventKind::kRest : kind_of(phase.mode), onset);
     if (!rests) return advance(ball, now);
     BallState at = world_.state(ball, now);
@@ -230,7 +230,8 @@ HeldBalls::Handover HeldBalls::end_integrated(int ball, double now) {
             break;
         case SingleEnd::kGripEnds:
             phase.mode = ContactMode::kIncipient;
-            forms_.hold(ball, now, surface.index, b.normal, EventKind::kSlide, {});
+            forms_.hold(ball, now, Phase::kIntegrated, surface.index, b.normal, EventKind::kSlide,
+                        {});
             break;
     }
     return advance(ball, now);
@@ -244,7 +245,7 @@ void HeldBalls::put_at(int ball, double now, const Vec3& x) {
 Contact HeldBalls::meet(int ball, const Partner& partner, double seconds, double now) {
     ExactBall& b = world_.ball(ball);
     put_on_surface(ball, now);
-    if (!partner.is_surface || b.stepped || b.piece.curve)
+    if (!partner.is_surface || b.phase() == Phase::kIsland || b.piece.curve)
         return world_.contact_at(ball, partner, now);
     const double lost = seconds - (now - b.piece.start);
     b.piece.position += lost * world_.velocities(ball, now).linear;

@@ -41,13 +41,8 @@ void IslandLinks::enter(int ball, double now, const Velocities& velocities) {
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
     // Where balls are many, what they join is most likely stepped.
-    if (!has_island(b)) b.coarse = has_many_balls(world_);
-    b.surface = -1;
-    b.stepped = true;
-    b.asleep = false;
-    b.steps = b.calm_steps = b.slow_steps = 0;
-    b.stepped_seconds = 0;
-    b.event_due = kInfinity;
+    if (!has_island(b.phase())) b.coarse = has_many_balls(world_);
+    world_.set_phase(ball, Phase::kIsland);
     b.phase_end = now;
     world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
 }
@@ -121,7 +116,7 @@ std::vector<int> IslandLinks::link_neighbours(std::vector<int> balls, double now
         const int ball = balls[k];
         const BallState at = world_.state(ball, now);
         // What rested, flew or had a closed form is stepped from now on.
-        if (!world_.ball(ball).stepped) enter(ball, now, {at.velocity, at.spin});
+        if (world_.ball(ball).phase() != Phase::kIsland) enter(ball, now, {at.velocity, at.spin});
         std::vector<Link> before = std::move(links_.of(ball));
         links_.of(ball).clear();
         for (const Link& link : before)
@@ -171,7 +166,7 @@ void IslandLinks::link_near(int ball, double now, std::vector<Link>& before) {
                  });
     for (const Contact& c : met) add_link(c, ball, c.other, known(c.other), now);
     world_.for_each_near(ball, [&](int other) {
-        if (world_.ball(other).in_pile) return;
+        if (in_pile(world_.ball(other).phase())) return;
         const double reach =
             (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(other).radius) +
             world_.place_rounding;

@@ -11,8 +11,6 @@ namespace carom {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// An island of so many balls is a pile, and so is a smaller one that does not come to rest in this
 /// time: in a pile one ball that rolls on does not keep the others awake.
 constexpr std::size_t kPile = 24;
@@ -46,9 +44,8 @@ std::vector<std::vector<int>> islands_of(const std::vector<int>& set, const Link
 }  // namespace
 
 bool Islands::has_part_in(const ImpactCluster& cluster) const {
-    return std::any_of(cluster.balls().begin(), cluster.balls().end(), [this](int ball) {
-        return world_.ball(ball).stepped || world_.ball(ball).asleep;
-    });
+    return std::any_of(cluster.balls().begin(), cluster.balls().end(),
+                       [this](int ball) { return has_island(world_.ball(ball).phase()); });
 }
 
 /// In an island that ODE steps, what is slower than a step can tell is left to the step, and a pile
@@ -58,7 +55,7 @@ ImpactCluster::Limits Islands::limits_of(const ImpactCluster& cluster) const {
     ImpactCluster::Limits limits;
     for (const int ball : cluster.balls()) {
         const ExactBall& b = world_.ball(ball);
-        if (!has_island(b)) continue;
+        if (!has_island(b.phase())) continue;
         limits.enough = std::max(limits.enough, b.rounding_speed);
         if (b.coarse) return {slow_speed(world_), kCoupledRounds * cluster.contact_count()};
     }
@@ -71,7 +68,8 @@ ImpactCluster::Limits Islands::limits_of(const ImpactCluster& cluster) const {
 Islands::Stepped Islands::step(const std::vector<int>& balls, double now) {
     std::vector<int> due;
     for (const int ball : balls)
-        if (world_.ball(ball).stepped && world_.ball(ball).phase_end <= now * (1 + kSameInstant))
+        if (world_.ball(ball).phase() == Phase::kIsland &&
+            world_.ball(ball).phase_end <= now * (1 + kSameInstant))
             due.push_back(ball);  // the others have taken their step with an island already
     Stepped result;
     result.balls = island_links_.link_neighbours(due, now);
@@ -170,14 +168,11 @@ Vec3 Islands::resting_spin(int ball, const Vec3& spin) const {
 /// The balls stop exactly where they are; spins about the normals of their contacts go on.
 void Islands::fall_asleep(const std::vector<int>& balls, double now, double calm_speed) {
     for (const int ball : balls) {
-        ExactBall& b = world_.ball(ball);
         BallState at = world_.state(ball, now);
         at.velocity.setZero();
         at.spin = resting_spin(ball, at.spin);
         if (world_.ball(ball).radius * at.spin.norm() < calm_speed) at.spin.setZero();
-        b.stepped = false;
-        b.asleep = true;
-        b.phase_end = kInfinity;
+        world_.set_phase(ball, Phase::kIslandAsleep);
         world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
         for (Link& link : links_.of(ball)) {
             const bool news = !link.from_start && link.stated != EventKind::kRest;

@@ -76,13 +76,9 @@ void Piles::want(int ball, double now) {
 
 /// The ball's island, lasting contact and predictions end: the pile has it.
 void Piles::enter(int ball, double now) {
-    ExactBall& b = world_.ball(ball);
     links_.drop(ball);
     const BallState at = world_.state(ball, now);
-    b.surface = -1;
-    b.stepped = b.asleep = false;
-    b.in_pile = true;
-    b.phase_end = b.event_due = kInfinity;
+    world_.set_phase(ball, Phase::kPile);
     world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
 }
 
@@ -141,7 +137,7 @@ void Piles::lay_to_sleep(int ball, double now, double calm_speed) {
     BallState at = world_.state(ball, now);
     at.velocity.setZero();
     if (b.radius * at.spin.norm() < calm_speed) at.spin.setZero();
-    b.asleep = true;
+    world_.set_phase(ball, Phase::kPileAsleep);
     world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
     c.load = 0;
     pile_.lay_to_sleep(ball);
@@ -177,7 +173,6 @@ bool Piles::leaves_alone(int ball, double now, const Velocities& velocities) {
     }
     pile_.release(ball);
     ExactBall& b = world_.ball(ball);
-    b.in_pile = false;
     if (floor == nullptr) {
         forms_.begin_flight(ball, now, velocities);
     } else {

@@ -55,7 +55,7 @@ std::optional<double> SteppedIslands::step(const std::vector<int>& balls, double
         ++b.steps;
         b.stepped_seconds += step.seconds();
         b.phase_end = now + step.seconds();
-        b.stepped = b.coarse = true;
+        b.coarse = true;
         world_.begin_piece(balls[i], now, r.start, r.acceleration, r.spin_rate);
     }
     for (std::size_t i = 0; i < step.contacts().size(); ++i) {

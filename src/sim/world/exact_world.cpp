@@ -87,6 +87,37 @@ void ExactWorld::follow_cell(int i, double t) {
     if (cell != grid->cell_of(i)) grid->move(i, cell);
 }
 
+void ExactWorld::set_phase(int i, Phase phase) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    ExactBall& b = ball(i);
+    b.phase_ = phase;
+    switch (phase) {
+        case Phase::kFlight:
+            b.surface = -1;
+            b.coarse = false;
+            b.phase_end = b.event_due = kNever;
+            break;
+        case Phase::kFlat:
+        case Phase::kIntegrated:
+            b.coarse = false;
+            break;
+        case Phase::kIsland:
+            b.surface = -1;
+            b.steps = b.calm_steps = b.slow_steps = 0;
+            b.stepped_seconds = 0;
+            b.event_due = kNever;
+            break;
+        case Phase::kPile:
+            b.surface = -1;
+            b.phase_end = b.event_due = kNever;
+            break;
+        case Phase::kIslandAsleep:
+        case Phase::kPileAsleep:
+            b.phase_end = kNever;
+            break;
+    }
+}
+
 void ExactWorld::begin_piece(int i, double now, const BallState& at, const Vec3& acceleration,
                              const Vec3& spin_rate, OptionalCurve curve) {
     ExactBall& b = ball(i);

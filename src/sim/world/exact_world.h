@@ -19,17 +19,36 @@
 
 namespace carom {
 
+/// What a ball is doing. ExactWorld::set_phase() alone changes it.
+enum class Phase : std::uint8_t {
+    kFlight,
+    kFlat,          ///< a flat surface holds it: its motion has a closed form
+    kIntegrated,    ///< any surface holds it, and its motion is integrated
+    kIsland,        ///< in an island (links.h) that is integrated or stepped
+    kIslandAsleep,  ///< in one that rests until something touches it
+    kPile,          ///< a member of the pile (pile.h)
+    kPileAsleep     ///< one that rests until something wakes it
+};
+inline bool has_island(Phase p) { return p == Phase::kIsland || p == Phase::kIslandAsleep; }
+inline bool in_pile(Phase p) { return p == Phase::kPile || p == Phase::kPileAsleep; }
+inline bool is_asleep(Phase p) { return p == Phase::kIslandAsleep || p == Phase::kPileAsleep; }
+
 /// A ball, from piece.start on. What its neighbours ask for stands first, in two lines of cache.
 struct alignas(64) ExactBall {
     std::uint64_t stamp = 0;  ///< changes with every new piece: predictions know what they rest on
     double radius = 0;        ///< m
     /// m/s: relative speeds below this are what its last impacts left of a zero.
     double rounding_speed = 0;
-    int surface = -1;            ///< of its lasting contact, -1 in flight
-    bool leaves_at_end = false;  ///< the phase ends because the face does
-    bool stepped = false;        ///< in an island that ODE steps; phase_end is the step's end
-    bool asleep = false;         ///< in such an island, which rests until something touches it
-    bool in_pile = false;        ///< a member of the pile (pile.h), asleep or not
+    int surface = -1;  ///< that holds it, -1 for none
+
+    Phase phase() const { return phase_; }
+
+  private:
+    friend class ExactWorld;
+    Phase phase_ = Phase::kFlight;
+
+  public:
+    bool leaves_at_end = false;  ///< of kFlat: it ends because the face does
     Piece piece;
     double mass = 0;            ///< kg
     double inertia_factor = 0;  ///< as in Ball
@@ -50,9 +69,6 @@ struct alignas(64) ExactBall {
     double event_due = std::numeric_limits<double>::infinity();
 };
 
-/// What an island holds; only such a ball has links.
-inline bool has_island(const ExactBall& b) { return b.stepped || b.asleep; }
-
 /// Scene, balls and the geometry of who touches whom.
 class ExactWorld {
   public:
@@ -70,6 +86,8 @@ class ExactWorld {
     /// The same without the orientation, which is what costs time.
     Vec3 position(int i, double t) const;
     Velocities velocities(int i, double t) const;
+    /// A ball's phase changes: what belongs to the one before is forgotten.
+    void set_phase(int i, Phase phase);
     /// What the ball does from `now` [s] on, until it begins another piece. Throws Failure(kRun)
     /// where its state is not finite.
     void begin_piece(int i, double now, const BallState& at, const Vec3& acceleration,
