@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/group/pile_solver.h"
+#include "sim/record/stated_kind.h"
 #include "sim/world/exact_world.h"
 #include "sim/world/links.h"
 
@@ -28,9 +29,7 @@ struct PilePair {
     Vec3 friction_force = Vec3::Zero();  ///< N
     bool touching = false;
     double slip = 0;  ///< at the end of the step, m/s
-    EventKind stated = EventKind::kLeave, candidate = EventKind::kLeave;
-    int candidate_steps = 0;
-    bool from_start = false;  ///< it exists at time 0: its first kind is no news
+    StatedKind kind;
 
     /// What orders pairs: ball, then surfaces, then balls.
     std::int64_t key() const {

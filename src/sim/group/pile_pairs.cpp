@@ -126,15 +126,15 @@ void Pile::add_pairs_of(int ball, double now, const Links& links, bool slept) {
         pair.restitution = both.restitution;
         pair.friction = both.friction;
         if (const Link* link = links.find(a, partner)) {
-            pair.stated = link->stated;
-            pair.from_start = link->from_start;
+            pair.kind.take_over(link->kind.stated());
+            if (link->kind.from_start()) pair.kind.begins_at_start();
         } else if (const ExactBall& held = world_.ball(a);
                    partner.is_surface && held.surface == partner.index) {
-            pair.stated = std::isinf(held.event_due) ? held.kind : EventKind::kLeave;
+            pair.kind.take_over(std::isinf(held.event_due) ? held.kind : EventKind::kLeave);
         } else if (slept) {
-            pair.stated = EventKind::kRest;
+            pair.kind.take_over(EventKind::kRest);
         }
-        pair.from_start |= now == 0;
+        if (now == 0) pair.kind.begins_at_start();
         pairs_.push_back(pair);
     };
     world_.for_each_surface_near(ball, x, body.radius + skin_, [&](int s) {

@@ -27,10 +27,6 @@ constexpr double kRoundingSpeed = 1e-11;
 constexpr int kMostShortPieces = 60;
 constexpr double kRestlessSeconds = 0.25;
 
-EventKind kind_of(ContactMode mode) {
-    return mode == ContactMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
-}
-
 /// All contacts and their modes as one number.
 std::uint64_t modes_of(const CoupledContacts& system) {
     std::uint64_t modes = system.ball_count;
@@ -284,10 +280,8 @@ void CoupledIslands::note_forces(const CoupledIsland& is, const CoupledForces& f
             link.slip_begins = mode == ContactMode::kIncipient;
             if (!link.pressed) continue;
             link.last = contact;
-            if (still || kind_of(mode) == link.stated || row_waits(link, now)) continue;
-            if (!link.from_start) log_.add(kind_of(mode), contact, now);
-            link.from_start = false;
-            link.stated = link.candidate = kind_of(mode);
+            if (still || kind_of(mode) == link.kind.stated() || row_waits(link, now)) continue;
+            if (link.kind.state(kind_of(mode))) log_.add(kind_of(mode), contact, now);
         }
     }
 }

@@ -24,10 +24,6 @@ constexpr int kMostInVain = 40;
 /// of a slip takes.
 constexpr double kFirstStepped = 1e-3;
 
-EventKind kind_of(ContactMode mode) {
-    return mode == ContactMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
-}
-
 bool is_plane(const SingleContact& contact) { return contact.across.trace() < 1.5; }
 
 }  // namespace

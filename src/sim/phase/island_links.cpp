@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A kind of contact is stated when it has been the same for so many steps.
-constexpr int kKindSteps = 3;
-
 /// Links that one impact can pass through at once, by Newton's law. What is left beyond them is
 /// solved by the next step, without rebound.
 constexpr std::size_t kMostCoupled = 40;
@@ -33,7 +30,7 @@ void IslandLinks::enter(int ball, double now, const Velocities& velocities) {
         Link link;
         link.partner = {true, b.surface};
         link.last = world_.contact_at(ball, link.partner, now);
-        link.stated = std::isinf(b.event_due) ? b.kind : EventKind::kLeave;
+        link.kind.take_over(std::isinf(b.event_due) ? b.kind : EventKind::kLeave);
         if (!std::isinf(b.event_due)) link.event_due = b.event_due;
         links_.of(ball) = {link};
     }
@@ -97,7 +94,7 @@ void IslandLinks::note_push(const Contact& contact, const Vec3& push) {
 void IslandLinks::unlink(const Contact& c, double now) {
     notes_.note_separation(c, now);
     const Link* link = links_.find(c.ball, c.other);
-    if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
+    if (link->kind.is_stated() || (link->kind.from_start() && link->pressed))
         log_.add(EventKind::kLeave, c, now);
     const auto forget = [this](int ball, const Partner& partner) {
         links_.unlink(ball, partner);
@@ -139,7 +136,7 @@ void IslandLinks::add_link(const Contact& contact, int ball, const Partner& part
     if (const Landing* landing = notes_.landing_of(contact, now);
         landing != nullptr && before == nullptr)
         link.event_due = landing->event_due;
-    if (now == 0) link.from_start = true;
+    if (now == 0) link.kind.begins_at_start();
     links_.of(ball).push_back(link);
 }
 
@@ -191,17 +188,9 @@ void IslandLinks::note_link(Link& link, const Contact& contact, bool calm, doubl
     if (!link.pressed) return;
     link.last = contact;
     if (calm) return;  // rest is stated when the island falls asleep
-    const EventKind kind =
-        contact.slip_after.norm() > calm_speed ? EventKind::kSlide : EventKind::kRoll;
-    if (kind != link.candidate) {
-        link.candidate = kind;
-        link.candidate_since = now;
-        link.candidate_steps = 0;
-    }
-    if (++link.candidate_steps < kKindSteps || kind == link.stated || row_waits(link, now)) return;
-    if (!link.from_start) log_.add(kind, contact, now);
-    link.from_start = false;
-    link.stated = kind;
+    const EventKind kind = kind_of_slip(contact.slip_after.norm(), calm_speed);
+    if (!link.kind.persists(kind, now, kind_steps::kStep) || row_waits(link, now)) return;
+    if (link.kind.state(kind)) log_.add(kind, contact, now);
 }
 
 /// Links of a ball that are no more. Of two balls, the scene's first one writes the row.
@@ -209,7 +198,7 @@ void IslandLinks::note_departures(int ball, const std::vector<Link>& before, dou
     for (const Link& link : before) {
         if (links_.linked(ball, link.partner)) continue;
         if (!link.partner.is_surface && link.partner.index < ball) continue;
-        if (link.stated != EventKind::kLeave || (link.from_start && link.pressed))
+        if (link.kind.is_stated() || (link.kind.from_start() && link.pressed))
             log_.add(EventKind::kLeave, world_.contact_at(ball, link.partner, now), now);
     }
 }

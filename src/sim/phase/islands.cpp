@@ -130,22 +130,22 @@ bool Islands::leave(int ball, double now) {
         v > kStillFraction * velocities.linear.norm() + world_.ball(ball).rounding_speed;
     if (world_.ball(ball).steps == 0 && !presses && !parts) return false;
     if (parts || (!presses && !link.pressed && v > 0)) {  // lifted off
-        if (link.stated != EventKind::kLeave || link.from_start)
+        if (link.kind.is_stated() || link.kind.from_start())
             log_.add(EventKind::kLeave, contact, now);
         links.clear();
         forms_.begin_flight(ball, now, velocities);
         return true;
     }
-    if (link.stated != EventKind::kLeave) {
+    if (link.kind.is_stated()) {
         world_.ball(ball).surface = link.partner.index;
-        world_.ball(ball).kind = link.stated;
+        world_.ball(ball).kind = link.kind.stated();
     }
     links.clear();
     // What another impact has lifted has no friction of its own to give back.
     const bool lands = notes_.landing_of(contact, now) != nullptr &&
                        (v <= 0 || now == 0 || log_.slid_in_impact(contact, now));
     const Velocities along = lands ? forms_.landed(ball, now, contact, velocities, v) : velocities;
-    const Onset onset{std::max(link.event_due - now, 0.0), link.from_start};
+    const Onset onset{std::max(link.event_due - now, 0.0), link.kind.from_start()};
     if (const auto stepped = held_.begin(ball, now, contact, along, onset))
         island_links_.enter(ball, now, *stepped);
     return true;
@@ -175,9 +175,7 @@ void Islands::fall_asleep(const std::vector<int>& balls, double now, double calm
         world_.set_phase(ball, Phase::kIslandAsleep);
         world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
         for (Link& link : links_.of(ball)) {
-            const bool news = !link.from_start && link.stated != EventKind::kRest;
-            if (link.pressed && news) log_.add(EventKind::kRest, link.last, now);
-            if (link.pressed) link.stated = EventKind::kRest;
+            if (link.pressed && link.kind.state_rest()) log_.add(EventKind::kRest, link.last, now);
         }
     }
 }

@@ -29,9 +29,6 @@ constexpr int kStepsAlone = 4, kStepsOnSurface = 16;
 /// It leaves onto a surface from at most this depth, as a part of its radius: it is put at depth 0.
 constexpr double kDepthOfRadius = 2e-5;
 
-/// A kind of contact is stated when it has been the same for so many steps.
-constexpr int kKindSteps = 8;
-
 }  // namespace
 
 // ---- Into the pile
@@ -145,10 +142,9 @@ void Piles::lay_to_sleep(int ball, double now, double calm_speed) {
         if (pair.ball != ball && (pair.other.is_surface || pair.other.index != ball)) continue;
         c.load = std::max(c.load, pair.force);
         const int other = pair.ball == ball ? pair.other.index : pair.ball;
-        if (!(pair.force > 0) || pair.stated == EventKind::kRest) continue;
+        if (!(pair.force > 0) || pair.kind.stated() == EventKind::kRest) continue;
         if (!pair.other.is_surface && !pile_.asleep(other)) continue;
-        pair.stated = EventKind::kRest;
-        if (!pair.from_start) log_.add(event_of(pair, EventKind::kRest, now));
+        if (pair.kind.state_rest()) log_.add(event_of(pair, EventKind::kRest, now));
     }
 }
 
@@ -176,11 +172,11 @@ bool Piles::leaves_alone(int ball, double now, const Velocities& velocities) {
     if (floor == nullptr) {
         forms_.begin_flight(ball, now, velocities);
     } else {
-        if (floor->stated != EventKind::kLeave) {
+        if (floor->kind.is_stated()) {
             b.surface = floor->other.index;
-            b.kind = floor->stated;
+            b.kind = floor->kind.stated();
         }
-        forms_.begin_flat_contact(ball, now, contact, velocities, {0, floor->from_start});
+        forms_.begin_flat_contact(ball, now, contact, velocities, {0, floor->kind.from_start()});
     }
     return true;
 }
@@ -199,24 +195,17 @@ void Piles::state_pair(PilePair& pair, double now) {
         log_.add(e);
         ++log_.report.impacts;
     }
-    if (pair.stated != EventKind::kLeave && pair.gap > pile_.separation_gap()) {
-        pair.stated = pair.candidate = EventKind::kLeave;
+    if (pair.kind.is_stated() && pair.gap > pile_.separation_gap()) {
+        pair.kind.state_leave();
         log_.add(event_of(pair, EventKind::kLeave, now));
     }
     if (!(pair.force > 0)) return;
-    const EventKind kind =
-        pair.slip > 0.1 * pile_.slow_speed() ? EventKind::kSlide : EventKind::kRoll;
-    if (pair.stated == EventKind::kRest && kind == EventKind::kRoll &&
+    const EventKind kind = kind_of_slip(pair.slip, 0.1 * pile_.slow_speed());
+    if (pair.kind.stated() == EventKind::kRest && kind == EventKind::kRoll &&
         pair.slip < kCalmFraction * pile_.slow_speed())
         return;
-    if (kind != pair.candidate) {
-        pair.candidate = kind;
-        pair.candidate_steps = 0;
-    }
-    if (++pair.candidate_steps < kKindSteps || kind == pair.stated) return;
-    if (!pair.from_start) log_.add(event_of(pair, kind, now));
-    pair.from_start = false;
-    pair.stated = kind;
+    if (!pair.kind.persists(kind, now, kind_steps::kPile)) return;
+    if (pair.kind.state(kind)) log_.add(event_of(pair, kind, now));
 }
 
 Event Piles::event_of(const PilePair& pair, EventKind kind, double now) const {

@@ -4,10 +4,16 @@
 #include <vector>
 
 #include "motion/motion.h"
+#include "sim/law/single_contact.h"
 #include "sim/record/simulation_result.h"
 #include "sim/world/exact_world.h"
 
 namespace carom {
+
+/// What the events call a contact of this mode while something moves.
+inline EventKind kind_of(ContactMode mode) {
+    return mode == ContactMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
+}
 
 class RunLog {
   public:

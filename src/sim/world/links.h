@@ -8,6 +8,7 @@
 
 #include "motion/motion.h"
 #include "sim/contact/contact.h"
+#include "sim/record/stated_kind.h"
 
 namespace carom {
 
@@ -20,12 +21,8 @@ struct Link {
     // What the rows of EVENTS.csv say about it, kept with the ball that the scene names first.
     Contact last;  ///< as it was when it last pressed
     bool pressed = false;
-    double event_due = 0;     ///< s: the end of its bouncing series, before which nothing is stated
-    bool from_start = false;  ///< it exists at time 0: its first kind is no news
-    EventKind stated = EventKind::kLeave;
-    EventKind candidate = EventKind::kLeave;
-    double candidate_since = 0;  ///< s
-    int candidate_steps = 0;
+    double event_due = 0;  ///< s: the end of its bouncing series, before which nothing is stated
+    StatedKind kind;
 };
 
 /// Instants that differ by so many roundings are one.
