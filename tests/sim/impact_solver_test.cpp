@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/solve/impact_sweeps.h"
+#include "sim/solve/contact_sweeps.h"
 
 namespace carom {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "geometry/nearest.h"
-#include "sim/solve/island_sweeps.h"
+#include "sim/solve/contact_sweeps.h"
 #include "sim/world/seams.h"
 
 namespace carom {

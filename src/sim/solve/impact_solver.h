@@ -4,7 +4,7 @@
 // that one dWorldStep is both laws to rounding, as long as friction does not act on the normal
 // impulses of others: it takes Coulomb's bounds from forces without friction, and a box for the
 // cone. Where its answer does not obey both laws, they are solved together (coulomb_impact.h, which
-// states them), and by sweeps (impact_sweeps.h) where contacts are too many, or ODE fails without
+// states them), and by sweeps (contact_sweeps.h) where contacts are too many, or ODE fails without
 // friction. ODE's answer to one contact is the closed form to rounding, at several times the cost
 // (tests/sim/impact_solver_test.cpp holds the two against each other).
 #pragma once

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "sim/solve/contact_joint.h"
-#include "sim/solve/island_sweeps.h"
+#include "sim/solve/contact_sweeps.h"
 #include "sim/solve/ode_bodies.h"
 #include "sim/solve/ode_handles.h"
 #include "sim/solve/ode_messages.h"
