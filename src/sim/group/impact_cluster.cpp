@@ -172,6 +172,12 @@ double ImpactCluster::approach(const Contact& c) const {
     return -relative_velocity(c, bodies_[index_of(c.ball)].velocities, other).dot(c.normal);
 }
 
+/// A contact under the numbers that its balls have in the cluster.
+SolverContact ImpactCluster::under_own_numbers(const Contact& c) const {
+    return {c, static_cast<int>(index_of(c.ball)),
+            c.other.is_surface ? -1 : static_cast<int>(index_of(c.other.index))};
+}
+
 /// The contacts that approach at least so fast, for the solver: only the bodies at hand, under
 /// numbers of its own.
 void ImpactCluster::choose(double slowest) {
@@ -192,32 +198,30 @@ void ImpactCluster::choose(double slowest) {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         if (!(speeds_[i] >= slowest)) continue;
         chosen_.push_back(i);
-        Contact c = contacts_[i];
-        c.ball = number(c.ball);
-        if (!c.other.is_surface) c.other.index = number(c.other.index);
-        solver_contacts_.push_back(c);
+        const Contact& c = contacts_[i];
+        const int body = number(c.ball);
+        solver_contacts_.emplace_back(c, body, c.other.is_surface ? -1 : number(c.other.index));
     }
 }
 
 void ImpactCluster::solve(ImpactSolver& solver, bool inelastic, double enough,
                           std::vector<Contact>& impacts) {
     if (inelastic)
-        for (Contact& c : solver_contacts_) c.restitution = 0;
+        for (SolverContact& c : solver_contacts_) c.restitution = 0;
     solver.solve(solver_bodies_, solver_contacts_, time_);
     for (std::size_t k = 0; k < here_.size(); ++k)
         bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
-        Contact solved = solver_contacts_[k];
+        const SolverContact& solved = solver_contacts_[k];
         if (int& entry = impact_of_[chosen_[k]]; entry >= 0) {
             Contact& impact = impacts[static_cast<std::size_t>(entry)];
             impact.impulse += solved.impulse;
             impact.tangential_impulse += solved.tangential_impulse;
         } else if (solved.approach_speed > enough) {
             entry = static_cast<int>(impacts.size());
-            solved.ball = contacts_[chosen_[k]].ball;
-            solved.other = contacts_[chosen_[k]].other;
-            solved.impact = true;
-            impacts.push_back(solved);
+            const Contact& met = contacts_[chosen_[k]];
+            impacts.push_back({solved, met.ball, met.other});
+            impacts.back().impact = true;
         }
     }
 }
@@ -238,18 +242,13 @@ void ImpactCluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& i
     first_approach_ = approach(contact);
     contact.separation_speed = -first_approach_;
     if (!(first_approach_ > std::max(kRounding * largest_speed_, limits.enough))) return;
-    solver_contacts_.assign(1, contact);
-    Contact& solved = solver_contacts_.front();
-    solved.ball = static_cast<int>(index_of(contact.ball));
-    if (!contact.other.is_surface)
-        solved.other.index = static_cast<int>(index_of(contact.other.index));
+    solver_contacts_.assign(1, under_own_numbers(contact));
     solver.solve(bodies_, solver_contacts_, time_);
+    const SolverContact& solved = solver_contacts_.front();
     contact.separation_speed = solved.separation_speed;
-    solved.ball = contact.ball;
-    solved.other = contact.other;
-    solved.impact = true;
-    solved.separation_speed = std::max(solved.separation_speed, 0.0);
-    impacts.push_back(solved);
+    impacts.push_back({solved, contact.ball, contact.other});
+    impacts.back().impact = true;
+    impacts.back().separation_speed = std::max(solved.separation_speed, 0.0);
 }
 
 /// Rounds that suffice for whatever ends: a chain of n balls needs about n, and a ball between a
@@ -305,11 +304,8 @@ void ImpactCluster::contacts_of(int ball, std::vector<Contact>& result) const {
 
 /// Ends an impact that a pile passes to and fro: nothing rebounds any more.
 void ImpactCluster::press_together() {
-    std::vector<Contact> contacts = contacts_;
-    for (Contact& c : contacts) {
-        c.ball = static_cast<int>(index_of(c.ball));
-        if (!c.other.is_surface) c.other.index = static_cast<int>(index_of(c.other.index));
-    }
+    std::vector<SolverContact> contacts;
+    for (const Contact& c : contacts_) contacts.push_back(under_own_numbers(c));
     std::vector<Vec3> pushes(contacts.size(), Vec3::Zero());
     solve_island_by_gauss_seidel(bodies_, contacts, std::vector<double>(contacts.size(), 0.0),
                                  pushes);

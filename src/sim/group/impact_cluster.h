@@ -83,6 +83,7 @@ class ImpactCluster {
     void touch_surfaces(int ball);
     void touch_balls(int ball);
     double approach(const Contact& contact) const;
+    SolverContact under_own_numbers(const Contact& contact) const;
     std::size_t rounds_to_end() const;
     void choose(double slowest);
     void solve(ImpactSolver& solver, bool inelastic, double enough, std::vector<Contact>& impacts);
@@ -106,7 +107,7 @@ class ImpactCluster {
     std::vector<int> number_;  ///< per ball of the cluster: its number for the solver, or -1
     std::vector<std::size_t> here_;
     std::vector<ImpactBody> solver_bodies_;
-    std::vector<Contact> solver_contacts_;
+    std::vector<SolverContact> solver_contacts_;
 };
 
 }  // namespace carom

@@ -48,11 +48,11 @@ double fastest_centre(const std::vector<ImpactBody>& bodies) {
     return fastest;
 }
 
-void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
+void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts) {
     ContactRows rows;
     rows.all.reserve(contacts.size());
     double scale = 0;
-    for (const Contact& c : contacts) {
+    for (const SolverContact& c : contacts) {
         rows.all.emplace_back(bodies, c, c.restitution * std::max(c.approach_speed, 0.0));
         scale = std::max(scale, std::abs(c.approach_speed));
     }
@@ -72,7 +72,7 @@ void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>
 }
 
 void solve_island_by_gauss_seidel(std::vector<ImpactBody>& bodies,
-                                  const std::vector<Contact>& contacts,
+                                  const std::vector<SolverContact>& contacts,
                                   const std::vector<double>& targets, std::vector<Vec3>& pushes) {
     ContactRows rows;
     rows.all.reserve(contacts.size());

@@ -15,7 +15,7 @@ namespace carom {
 /// sets the velocities of the bodies and impulse and tangential_impulse of the contacts. Where it
 /// does not converge within its bound, the bodies still approach a little; momentum is exact all
 /// the same.
-void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts);
+void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts);
 
 /// One step of an island: finds impulses with which each contact's separation speed reaches its
 /// `targets` [m/s]. It starts from `pushes` [N s on the contact's ball], those of the step before,
@@ -24,7 +24,7 @@ void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<Contact>
 /// them. Ends after a bounded number of sweeps with what has been reached: the next step goes on
 /// from it.
 void solve_island_by_gauss_seidel(std::vector<ImpactBody>& bodies,
-                                  const std::vector<Contact>& contacts,
+                                  const std::vector<SolverContact>& contacts,
                                   const std::vector<double>& targets, std::vector<Vec3>& pushes);
 
 /// Of the bodies' centres, m/s: relative speeds are known to its rounding.

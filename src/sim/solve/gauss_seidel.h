@@ -4,8 +4,8 @@
 // w_n >= target with an impulse that only pushes, and Coulomb's true cone, the impulses of all
 // others as they are (J. J. Moreau, "Unilateral contact and dry friction in finite freedom
 // dynamics", 1988). Momentum is exact whenever the iteration ends. What bodies and rows are made
-// of, and when it ends, is the caller's: contact_rows.h for impacts and islands, group/pile_solver.h for
-// piles.
+// of, and when it ends, is the caller's: contact_rows.h for impacts and islands,
+// group/pile_solver.h for piles.
 #pragma once
 
 #include <algorithm>
