@@ -7,10 +7,9 @@
 #include <limits>
 
 #include "core/failure.h"
-#include "sim/exact/cell_exit.h"
+#include "sim/exact/cells.h"
 #include "sim/exact/refusal.h"
 #include "sim/exact/standstill.h"
-#include "sim/group/island_step.h"
 #include "sim/record/kept_limit.h"
 #include "sim/record/model_features.h"
 #include "sim/record/peaks.h"
@@ -19,14 +18,8 @@ namespace carom {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Events at one instant, up to this many roundings of the time, belong together.
 constexpr double kTogether = 4 * std::numeric_limits<double>::epsilon();
-
-/// Impacts with a larger coefficient do not make a pile: a dense gas of balls that lose hardly
-/// anything is followed impact by impact, so that its energy is kept.
-constexpr double kMostOfPile = 0.9;
 
 /// Events between two looks at the stop token, where nothing is stepped or integrated, which takes
 /// a hundred times as long.
@@ -46,9 +39,7 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
       links_(scene.balls.size()),
       queue_(scene.balls.size()),
       next_(scene.balls.size()),
-      can_collide_(can_collide(scene, world_.pairs, end)),
-      cluster_(world_),
-      seeds_(scene.balls.size()) {
+      can_collide_(can_collide(scene, world_.pairs, end)) {
     world_.place_rounding = options.place_rounding;
     if (world_.bounded_surfaces.size() >= options.surfaces_for_tree) world_.build_surface_tree();
     const int balls = static_cast<int>(scene.balls.size());
@@ -133,27 +124,21 @@ void ExactRun::report_progress(const std::stop_token& stop, const SimulationProg
 }
 
 void ExactRun::process_instant(double now) {
-    seeds_.clear();
+    impacts_.begin_instant();
     stepped_.clear();
-    ++instant_;
     for (std::size_t i = 0; i < together_.size(); ++i) {
         const Prediction p = together_[i];
         if (is_current(p)) collect(p, now);
     }
-    const std::size_t met = seeds_.all().size();
-    // What hangs on a link is met as well.
-    const auto has_links = [this](int ball) {
-        return has_island(world_.ball(ball).phase()) && !links_.of(ball).empty();
-    };
-    const auto linked = [&has_links](const Contact& c) {
-        return has_links(c.ball) || (!c.other.is_surface && has_links(c.other.index));
-    };
-    if (std::any_of(seeds_.all().begin(), seeds_.all().end(), linked))
-        for (const Contact& c : islands_.linked_contacts(seeds_.all(), now)) seeds_.add(c);
     // Clusters that do not touch are resolved one by one.
+    const std::size_t met = impacts_.connect(now);
     for (std::size_t i = 0; i < met; ++i) {
-        const Contact seed = seeds_.all()[i];
-        if (world_.ball(seed.ball).resolved != instant_) resolve(seed, now);
+        if (!impacts_.resolve(i, now)) continue;
+        const bool lossy = impacts_.is_lossy();
+        for (const int ball : impacts_.balls()) {
+            if (lossy) piles_.note_impact(ball, now);
+            predict(ball, now);
+        }
     }
     if (!stepped_.empty()) step_islands(now);
 }
@@ -176,28 +161,7 @@ void ExactRun::collect(const Prediction& p, double now) {
         piles_.join(in_pile(b.phase()) ? p.partner.index : p.ball, now);
     } else {
         if (partner != nullptr) held_.put_on_surface(p.partner.index, now);
-        seeds_.add(held_.meet(p.ball, p.partner, p.seconds, now));
-    }
-}
-
-void ExactRun::resolve(const Contact& seed, double now) {
-    cluster_.gather(seed, seeds_, now);
-    impacts_.clear();
-    const ImpactCluster::Limits limits = islands_.limits_of(cluster_);
-    cluster_.resolve(solver_, impacts_, limits);
-    const double rounding_speed =
-        std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
-    log_.add_impacts(impacts_, now);
-    for (const int ball : cluster_.balls()) {
-        world_.ball(ball).resolved = instant_;
-        world_.ball(ball).rounding_speed = rounding_speed;
-    }
-    aftermath_.settle(cluster_, impacts_, now);
-    const bool lossy = std::any_of(impacts_.begin(), impacts_.end(),
-                                   [](const Contact& c) { return c.restitution <= kMostOfPile; });
-    for (const int ball : cluster_.balls()) {
-        if (lossy) piles_.note_impact(ball, now);
-        predict(ball, now);
+        impacts_.add(held_.meet(p.ball, p.partner, p.seconds, now));
     }
 }
 
@@ -277,7 +241,7 @@ void ExactRun::act_on(const Outlook& outlook, double now) {
         next.ball = ball;
         next.stamp = world_.ball(ball).stamp;
     }
-    next.leaves_cell = leaves_cell(next, now);
+    next.leaves_cell = leaves_cell(world_, ball, now, std::min(next.time, end_));
     const double time = std::min(next.time, next.leaves_cell);
     if (time <= end_)
         queue_.put(ball, time);
@@ -285,36 +249,15 @@ void ExactRun::act_on(const Outlook& outlook, double now) {
         queue_.drop(ball);
 }
 
-/// The end of a ball's stay in its cell [s], if that comes before what is predicted.
-double ExactRun::leaves_cell(const Prediction& next, double now) const {
-    const double until = std::min(next.time, end_) - now;
-    if (!world_.grid || !world_.grid->in_cell(next.ball)) return kInfinity;
-    const double seconds = seconds_in_cell(world_, next.ball, now, until);
-    return seconds < until ? now + seconds : kInfinity;
-}
-
 /// A ball has left its cell: only the cells that come into reach have to be looked at.
 void ExactRun::change_cell(int ball, double now) {
-    NeighbourGrid& grid = *world_.grid;
-    const NeighbourGrid::Cell from = grid.cell_of(ball);
-    const NeighbourGrid::Cell to = grid.cell_at(world_.position(ball, now));
-    int moved = 0, axis = 0;
-    std::int64_t side = 0;
-    for (int i = 0; i < 3; ++i) {
-        const std::int64_t step =
-            to[static_cast<std::size_t>(i)] - from[static_cast<std::size_t>(i)];
-        if (step == 0) continue;
-        ++moved;
-        axis = i;
-        side = step;
-    }
-    if (moved > 0) grid.move(ball, to);
+    const CellChange change = enter_cell(world_, ball, now);
     Outlook outlook;
     outlook.next = next_[static_cast<std::size_t>(ball)];
     const auto look = [&](int other) { predictor_.look_at_ball(outlook, other, now); };
-    if (moved == 1 && std::abs(side) == 1)
-        world_.for_each_in_layer(ball, axis, side, look);
-    else if (moved > 0)
+    if (change.axes == 1 && std::abs(change.side) == 1)
+        world_.for_each_in_layer(ball, change.axis, change.side, look);
+    else if (change.axes > 0)
         world_.for_each_near(ball, look);
     act_on(outlook, now);
 }

@@ -8,14 +8,13 @@
 #include "sim/collide/can_collide.h"
 #include "sim/exact/aftermath.h"
 #include "sim/exact/exact.h"
+#include "sim/exact/impacts.h"
 #include "sim/exact/predictor.h"
 #include "sim/exact/rest_watch.h"
-#include "sim/group/impact_cluster.h"
 #include "sim/phase/held_balls.h"
 #include "sim/phase/islands.h"
 #include "sim/phase/piles.h"
 #include "sim/record/simulation_result.h"
-#include "sim/solve/impact_solver.h"
 #include "sim/world/event_queue.h"
 
 namespace carom {
@@ -37,14 +36,12 @@ class ExactRun {
     void take_together(const Prediction& next);
     void predict(int ball, double now);
     void act_on(const Outlook& outlook, double now);
-    double leaves_cell(const Prediction& next, double now) const;
     void change_cell(int ball, double now);
     void fit_grid(double now);
 
     // The loop.
     void process_instant(double now);
     void collect(const Prediction& p, double now);
-    void resolve(const Contact& seed, double now);
     void step_islands(double now);
     void step_pile(double now);
     void give_up_on(const Prediction& p);
@@ -63,20 +60,16 @@ class ExactRun {
     Piles piles_{world_, links_, log_, forms_};
     Predictor predictor_{world_, links_, notes_, rules_, piles_, end_};
     Aftermath aftermath_{world_, rules_, notes_, log_, forms_, held_, islands_};
+    Impacts impacts_{world_, links_, log_, islands_, aftermath_};
     RestWatch rest_{world_, links_};
-    ImpactSolver solver_;
     EventQueue queue_;
     std::vector<Prediction> next_;  ///< per ball
     std::int64_t events_of_grid_ = 0;
     CanCollide can_collide_;
 
     // Of one instant; members, so that an event allocates nothing once they have grown.
-    ImpactCluster cluster_;
-    Seeds seeds_;
     std::vector<Prediction> together_;
-    std::vector<Contact> impacts_;
     std::vector<int> stepped_;  ///< balls whose island is due
-    std::uint64_t instant_ = 0;
 };
 
 }  // namespace carom

@@ -196,7 +196,7 @@ void CoupledIslands::begin_pieces(const std::vector<int>& island, double now,
         at.position = is.state[b].x;
         at.velocity = is.state[b].v;
         at.spin = is.state[b].w;
-        ++ball.steps;
+        ++links_.member(island[b]).steps;
         ball.rounding_speed = rounding_speed;
         ball.phase_end = now + piece.seconds;
         ball.coarse = false;
@@ -256,9 +256,9 @@ bool CoupledIslands::is_at_rest(const std::vector<int>& island, const CoupledIsl
             calm && (is.system.contacts[i].friction == 0 || forces.contacts[i].slip.norm() <= slow);
     bool long_enough = calm;
     for (const int ball : island) {
-        ExactBall& b = world_.ball(ball);
-        b.slow_steps = calm ? b.slow_steps + static_cast<int>(seconds / kIslandStep) + 1 : 0;
-        long_enough = long_enough && b.slow_steps * kIslandStep >= kStillSeconds;
+        IslandMember& m = links_.member(ball);
+        m.slow_steps = calm ? m.slow_steps + static_cast<int>(seconds / kIslandStep) + 1 : 0;
+        long_enough = long_enough && m.slow_steps * kIslandStep >= kStillSeconds;
     }
     return long_enough;
 }

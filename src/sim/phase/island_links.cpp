@@ -40,6 +40,7 @@ void IslandLinks::enter(int ball, double now, const Velocities& velocities) {
     // Where balls are many, what they join is most likely stepped.
     if (!has_island(b.phase())) b.coarse = has_many_balls(world_);
     world_.set_phase(ball, Phase::kIsland);
+    links_.member(ball) = {};
     b.phase_end = now;
     world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
 }
@@ -98,7 +99,7 @@ void IslandLinks::unlink(const Contact& c, double now) {
         log_.add(EventKind::kLeave, c, now);
     const auto forget = [this](int ball, const Partner& partner) {
         links_.unlink(ball, partner);
-        world_.ball(ball).steps = std::max(world_.ball(ball).steps, 1);
+        links_.member(ball).steps = std::max(links_.member(ball).steps, 1);
     };
     forget(c.ball, c.other);
     if (!c.other.is_surface) forget(c.other.index, {false, c.ball});

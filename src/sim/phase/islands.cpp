@@ -101,7 +101,7 @@ void Islands::step_island(const std::vector<int>& island, double now) {
 bool Islands::is_pile(const std::vector<int>& island) const {
     if (island.size() < kSmallPile) return false;
     return island.size() >= kPile || std::any_of(island.begin(), island.end(), [this](int ball) {
-               return world_.ball(ball).stepped_seconds >= kRestlessSeconds;
+               return links_.member(ball).stepped_seconds >= kRestlessSeconds;
            });
 }
 
@@ -128,7 +128,7 @@ bool Islands::leave(int ball, double now) {
         !world_.ball(ball).coarse && rules_.pressing_gravity(contact.normal) == 0 &&
         notes_.landing_of(contact, now) == nullptr &&
         v > kStillFraction * velocities.linear.norm() + world_.ball(ball).rounding_speed;
-    if (world_.ball(ball).steps == 0 && !presses && !parts) return false;
+    if (links_.member(ball).steps == 0 && !presses && !parts) return false;
     if (parts || (!presses && !link.pressed && v > 0)) {  // lifted off
         if (link.kind.is_stated() || link.kind.from_start())
             log_.add(EventKind::kLeave, contact, now);

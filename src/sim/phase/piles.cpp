@@ -36,13 +36,10 @@ constexpr double kDepthOfRadius = 2e-5;
 
 void Piles::note_impact(int ball, double now) {
     if (world_.scene.simulation.gravity.isZero(0) || world_.balls.size() < kManyBalls) return;
-    ExactBall& b = world_.ball(ball);
-    if (now - b.impacts_since > kImpactSeconds) {
-        b.impacts_since = now;
-        b.recent_impacts = 0;
-    }
-    if (++b.recent_impacts < kManyImpacts) return;
-    b.recent_impacts = 0;
+    RecentImpacts& recent = recent_[static_cast<std::size_t>(ball)];
+    if (now - recent.since > kImpactSeconds) recent = {now, 0};
+    if (++recent.count < kManyImpacts) return;
+    recent.count = 0;
     if (stand_together(ball, now)) want(ball, now);
 }
 

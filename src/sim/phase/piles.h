@@ -13,7 +13,12 @@ namespace carom {
 class Piles {
   public:
     Piles(ExactWorld& world, Links& links, RunLog& log, ClosedForms& forms)
-        : world_(world), links_(links), log_(log), forms_(forms), pile_(world) {}
+        : world_(world),
+          links_(links),
+          log_(log),
+          forms_(forms),
+          pile_(world),
+          recent_(world.balls.size()) {}
 
     /// s; infinite while there is no pile.
     double next_step() const { return next_step_; }
@@ -39,6 +44,12 @@ class Piles {
     void state_pair(PilePair& pair, double now);
     Event event_of(const PilePair& pair, EventKind kind, double now) const;
 
+    /// Impacts of a ball that come thick.
+    struct RecentImpacts {
+        double since = 0;  ///< s
+        int count = 0;
+    };
+
     ExactWorld& world_;
     Links& links_;
     RunLog& log_;
@@ -46,6 +57,7 @@ class Piles {
     Pile pile_;
     double next_step_ = std::numeric_limits<double>::infinity();  ///< s
     std::vector<int> taken_;                                      ///< in the step at hand
+    std::vector<RecentImpacts> recent_;                           ///< per ball
 };
 
 }  // namespace carom

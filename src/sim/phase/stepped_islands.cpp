@@ -47,13 +47,14 @@ std::optional<double> SteppedIslands::step(const std::vector<int>& balls, double
     bool asleep = slow;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         ExactBall& b = world_.ball(balls[i]);
+        IslandMember& m = links_.member(balls[i]);
         const IslandStep::Result& r = step.result(i);
-        b.calm_steps = calm ? b.calm_steps + 1 : 0;
-        b.slow_steps = slow ? b.slow_steps + 1 : 0;
-        asleep = asleep && (b.calm_steps * step.seconds() >= kCalmSeconds ||
-                            b.slow_steps * step.seconds() >= kSlowSeconds);
-        ++b.steps;
-        b.stepped_seconds += step.seconds();
+        m.calm_steps = calm ? m.calm_steps + 1 : 0;
+        m.slow_steps = slow ? m.slow_steps + 1 : 0;
+        asleep = asleep && (m.calm_steps * step.seconds() >= kCalmSeconds ||
+                            m.slow_steps * step.seconds() >= kSlowSeconds);
+        ++m.steps;
+        m.stepped_seconds += step.seconds();
         b.phase_end = now + step.seconds();
         b.coarse = true;
         world_.begin_piece(balls[i], now, r.start, r.acceleration, r.spin_rate);

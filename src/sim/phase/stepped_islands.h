@@ -11,7 +11,7 @@ namespace carom {
 
 class SteppedIslands {
   public:
-    SteppedIslands(ExactWorld& world, const Links& links, RunLog& log, IslandLinks& island_links)
+    SteppedIslands(ExactWorld& world, Links& links, RunLog& log, IslandLinks& island_links)
         : world_(world), links_(links), log_(log), island_links_(island_links) {}
 
     /// One step of an island. Where it has rested for long enough to fall asleep: below which
@@ -22,7 +22,7 @@ class SteppedIslands {
     double step_speed(const std::vector<int>& balls) const;
 
     ExactWorld& world_;
-    const Links& links_;
+    Links& links_;
     RunLog& log_;
     IslandLinks& island_links_;
     IslandSolver solver_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/failure.h"
 #include "geometry/nearest.h"
 #include "sim/collide/time_of_impact_high_degree.h"
 
@@ -27,20 +26,7 @@ constexpr double kMisfit = 1.5;
 
 }  // namespace
 
-ExactWorld::ExactWorld(const Scene& s)
-    : scene(s), pairs(s), balls(s.balls.size()), log(s.balls.size()) {
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        const Ball& body = s.balls[i];
-        balls[i].radius = body.radius;
-        balls[i].mass = body.mass;
-        balls[i].inertia_factor = body.inertia_factor;
-        balls[i].material = body.material;
-        Piece& piece = balls[i].piece;
-        piece.position = body.position;
-        piece.velocity = body.velocity;
-        piece.acceleration = s.simulation.gravity;
-        piece.spin = body.spin;
-    }
+ExactWorld::ExactWorld(const Scene& s) : ExactBalls(s), pairs(s) {
     for (int i = 0; i < static_cast<int>(s.surfaces.size()); ++i)
         (is_unbounded(surface(i).shape) ? planes : bounded_surfaces).push_back(i);
     const std::size_t materials = s.materials.size();
@@ -87,49 +73,6 @@ void ExactWorld::follow_cell(int i, double t) {
     if (cell != grid->cell_of(i)) grid->move(i, cell);
 }
 
-void ExactWorld::set_phase(int i, Phase phase) {
-    constexpr double kNever = std::numeric_limits<double>::infinity();
-    ExactBall& b = ball(i);
-    b.phase_ = phase;
-    switch (phase) {
-        case Phase::kFlight:
-            b.surface = -1;
-            b.coarse = false;
-            b.phase_end = b.event_due = kNever;
-            break;
-        case Phase::kFlat:
-        case Phase::kIntegrated:
-            b.coarse = false;
-            break;
-        case Phase::kIsland:
-            b.surface = -1;
-            b.steps = b.calm_steps = b.slow_steps = 0;
-            b.stepped_seconds = 0;
-            b.event_due = kNever;
-            break;
-        case Phase::kPile:
-            b.surface = -1;
-            b.phase_end = b.event_due = kNever;
-            break;
-        case Phase::kIslandAsleep:
-        case Phase::kPileAsleep:
-            b.phase_end = kNever;
-            break;
-    }
-}
-
-void ExactWorld::begin_piece(int i, double now, const BallState& at, const Vec3& acceleration,
-                             const Vec3& spin_rate, OptionalCurve curve) {
-    ExactBall& b = ball(i);
-    b.piece = {now,     at.position, at.velocity, acceleration, std::move(curve), at.orientation,
-               at.spin, spin_rate};
-    renew(i);
-    if (!at.position.allFinite() || !at.velocity.allFinite() || !at.spin.allFinite())
-        throw Failure(FailureKind::kRun,
-                      fmt::format("the state of ball {} is not finite at {} s", body(i).name, now));
-    log.append(i, b.piece);
-}
-
 const std::vector<int>& ExactWorld::near(int ball_index) const {
     for (const NearList& list : lists_)
         if (list.ball == ball_index && list.moves == grid->moves()) return list.others;
@@ -171,18 +114,6 @@ void ExactWorld::find_surfaces_ahead(int i, double t, double seconds,
     }
     const HighDegreePath curved = high_degree_path(piece, t, seconds);
     surface_tree->find_near(Box3(curved.c[0]), reach(i) + curved.reach(), found);
-}
-
-Vec3 ExactWorld::position(int i, double t) const { return ball(i).piece.position_at(t); }
-
-Velocities ExactWorld::velocities(int i, double t) const {
-    const Piece& p = ball(i).piece;
-    return {p.velocity_at(t), p.spin_at(t)};
-}
-
-Path ExactWorld::path(int i, double t) const {
-    const Piece& p = ball(i).piece;
-    return {p.position_at(t), p.velocity_at(t), p.acceleration_at(t)};
 }
 
 std::string ExactWorld::name(const Partner& partner) const {

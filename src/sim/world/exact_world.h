@@ -1,4 +1,4 @@
-// The balls of the method `exact` between two events: each has its own clock and its current piece.
+// The world of the method `exact` between two events: balls, and who touches whom.
 #pragma once
 
 #include <array>
@@ -8,97 +8,24 @@
 #include <string>
 #include <vector>
 
-#include "motion/motion.h"
-#include "motion/motion_log.h"
 #include "scene/scene.h"
 #include "sim/collide/neighbour_grid.h"
 #include "sim/collide/surface_tree.h"
 #include "sim/collide/time_of_impact.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/restitution.h"
+#include "sim/world/exact_balls.h"
 
 namespace carom {
 
-/// What a ball is doing. ExactWorld::set_phase() alone changes it.
-enum class Phase : std::uint8_t {
-    kFlight,
-    kFlat,          ///< a flat surface holds it: its motion has a closed form
-    kIntegrated,    ///< any surface holds it, and its motion is integrated
-    kIsland,        ///< in an island (links.h) that is integrated or stepped
-    kIslandAsleep,  ///< in one that rests until something touches it
-    kPile,          ///< a member of the pile (pile.h)
-    kPileAsleep     ///< one that rests until something wakes it
-};
-inline bool has_island(Phase p) { return p == Phase::kIsland || p == Phase::kIslandAsleep; }
-inline bool in_pile(Phase p) { return p == Phase::kPile || p == Phase::kPileAsleep; }
-inline bool is_asleep(Phase p) { return p == Phase::kIslandAsleep || p == Phase::kPileAsleep; }
-
-/// A ball, from piece.start on. What its neighbours ask for stands first, in two lines of cache.
-struct alignas(64) ExactBall {
-    std::uint64_t stamp = 0;  ///< changes with every new piece: predictions know what they rest on
-    double radius = 0;        ///< m
-    /// m/s: relative speeds below this are what its last impacts left of a zero.
-    double rounding_speed = 0;
-    int surface = -1;  ///< that holds it, -1 for none
-
-    Phase phase() const { return phase_; }
-
-  private:
-    friend class ExactWorld;
-    Phase phase_ = Phase::kFlight;
-
-  public:
-    bool leaves_at_end = false;  ///< of kFlat: it ends because the face does
-    Piece piece;
-    double mass = 0;            ///< kg
-    double inertia_factor = 0;  ///< as in Ball
-    int material = 0;
-    EventKind kind = EventKind::kLeave;  ///< of the lasting contact: kSlide, kRoll or kRest
-    Vec3 normal = Vec3::UnitZ();         ///< of the lasting contact
-    double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
-    double impacts_since = 0;  ///< s: its recent impacts are counted from here
-    int recent_impacts = 0;
-    std::uint64_t resolved = 0;  ///< the last instant at which an impact of it was resolved
-    /// ODE steps its island: its gaps and speeds are known to what a step can tell.
-    bool coarse = false;
-    int steps = 0;               ///< taken since it joined an island
-    double stepped_seconds = 0;  ///< the same time, s
-    int calm_steps = 0;          ///< on end, in which it hardly moved
-    int slow_steps = 0;          ///< on end, in which it moved, but slowly
-    /// s, when the row of the lasting contact is due: at the end of its bouncing series.
-    double event_due = std::numeric_limits<double>::infinity();
-};
-
 /// Scene, balls and the geometry of who touches whom.
-class ExactWorld {
+class ExactWorld : public ExactBalls {
   public:
     explicit ExactWorld(const Scene& scene);
 
-    const Scene& scene;
     PairTable pairs;
-    std::vector<ExactBall> balls;
 
-    ExactBall& ball(int i) { return balls[static_cast<std::size_t>(i)]; }
-    const ExactBall& ball(int i) const { return balls[static_cast<std::size_t>(i)]; }
-    const Ball& body(int i) const { return scene.balls[static_cast<std::size_t>(i)]; }
     const Surface& surface(int i) const { return scene.surfaces[static_cast<std::size_t>(i)]; }
-    BallState state(int i, double t) const { return ball(i).piece.at(t); }
-    /// The same without the orientation, which is what costs time.
-    Vec3 position(int i, double t) const;
-    Velocities velocities(int i, double t) const;
-    /// A ball's phase changes: what belongs to the one before is forgotten.
-    void set_phase(int i, Phase phase);
-    /// What the ball does from `now` [s] on, until it begins another piece. Throws Failure(kRun)
-    /// where its state is not finite.
-    void begin_piece(int i, double now, const BallState& at, const Vec3& acceleration,
-                     const Vec3& spin_rate, OptionalCurve curve = {});
-    /// Its piece goes on, but predictions that rest on it do not hold any more.
-    void renew(int i) { ball(i).stamp = next_stamp_++; }
-    /// All pieces that balls have begun.
-    MotionLog log;
-
-    /// The path of a ball's centre from t on.
-    Path path(int i, double t) const;
     std::string name(const Partner& partner) const;
 
     double place_rounding = 0;  ///< m: of the places that the scene came with (ExactOptions)
@@ -144,13 +71,6 @@ class ExactWorld {
         list.others.clear();
         grid->for_each_in_layer(ball_index, axis, side, [&](int other) { add_to(list, other); });
         for (const int other : list.others) f(other);
-    }
-
-    /// Has a ball's memory on its way when it is looked at a little later.
-    void fetch(int i) const {
-        const auto* bytes = reinterpret_cast<const char*>(&ball(i));
-        __builtin_prefetch(bytes);
-        __builtin_prefetch(bytes + 64);
     }
 
     std::vector<int> planes, bounded_surfaces;  ///< the surfaces of both kinds, ascending
@@ -217,7 +137,6 @@ class ExactWorld {
     const std::vector<int>& near(int ball_index) const;
     void set_pair(Contact& contact, int material) const;
 
-    std::uint64_t next_stamp_ = 1;
     mutable std::array<NearList, 4> lists_;  ///< the last ones, in turn
     mutable std::size_t at_list_ = 0;
     /// Per ball, a box where no bounded surface is: that of its last flight that met none. The next

@@ -25,6 +25,14 @@ struct Link {
     StatedKind kind;
 };
 
+/// A ball as a member of its island, since it joined.
+struct IslandMember {
+    int steps = 0;               ///< taken or integrated
+    double stepped_seconds = 0;  ///< of those that ODE took, s
+    int calm_steps = 0;          ///< on end, in which it hardly moved
+    int slow_steps = 0;          ///< on end, in which it moved, but slowly
+};
+
 /// Instants that differ by so many roundings are one.
 inline constexpr double kSameInstant = 16 * std::numeric_limits<double>::epsilon();
 
@@ -33,10 +41,13 @@ inline bool row_waits(const Link& link, double now) {
     return link.event_due > now * (1 + kSameInstant);
 }
 
-/// Per ball, its links. A link between two balls stands with both of them.
+/// Per ball, its links and what it is to its island. A link between two balls stands with both of them.
 class Links {
   public:
-    explicit Links(std::size_t balls) : of_(balls) {}
+    explicit Links(std::size_t balls) : of_(balls), members_(balls) {}
+
+    IslandMember& member(int ball) { return members_[static_cast<std::size_t>(ball)]; }
+    const IslandMember& member(int ball) const { return members_[static_cast<std::size_t>(ball)]; }
 
     std::vector<Link>& of(int ball) { return of_[static_cast<std::size_t>(ball)]; }
     const std::vector<Link>& of(int ball) const { return of_[static_cast<std::size_t>(ball)]; }
@@ -62,6 +73,7 @@ class Links {
 
   private:
     std::vector<std::vector<Link>> of_;
+    std::vector<IslandMember> members_;
 };
 
 }  // namespace carom

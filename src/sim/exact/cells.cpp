@@ -1,6 +1,7 @@
-#include "sim/exact/cell_exit.h"
+#include "sim/exact/cells.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "sim/collide/time_of_impact_high_degree.h"
 #include "sim/math/polynomial.h"
@@ -23,8 +24,7 @@ double seconds_inside(double x, double v, double a, double low, double high, dou
     return horizon;
 }
 
-}  // namespace
-
+/// Seconds from `now` [s] on, at most `horizon`. Only for a ball that is in a cell.
 double seconds_in_cell(const ExactWorld& world, int ball, double now, double horizon) {
     const Path path = world.path(ball, now);
     const double size = world.grid->cell_size(), margin = world.grid->margin();
@@ -44,6 +44,33 @@ double seconds_in_cell(const ExactWorld& world, int ball, double now, double hor
                                  low - margin, low + size + margin, seconds);
     }
     return seconds;
+}
+
+}  // namespace
+
+double leaves_cell(const ExactWorld& world, int ball, double now, double until) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    if (!world.grid || !world.grid->in_cell(ball)) return kNever;
+    const double horizon = until - now;
+    const double seconds = seconds_in_cell(world, ball, now, horizon);
+    return seconds < horizon ? now + seconds : kNever;
+}
+
+CellChange enter_cell(ExactWorld& world, int ball, double now) {
+    NeighbourGrid& grid = *world.grid;
+    const NeighbourGrid::Cell from = grid.cell_of(ball);
+    const NeighbourGrid::Cell to = grid.cell_at(world.position(ball, now));
+    CellChange change;
+    for (int i = 0; i < 3; ++i) {
+        const std::int64_t step =
+            to[static_cast<std::size_t>(i)] - from[static_cast<std::size_t>(i)];
+        if (step == 0) continue;
+        ++change.axes;
+        change.axis = i;
+        change.side = step;
+    }
+    if (change.axes > 0) grid.move(ball, to);
+    return change;
 }
 
 }  // namespace carom
