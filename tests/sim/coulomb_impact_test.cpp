@@ -22,10 +22,9 @@ double energy_of(const std::vector<ImpactBody>& bodies) {
     return sum;
 }
 
-Contact wall_contact(int ball, const Vec3& normal, double restitution, double friction) {
-    Contact c;
-    c.ball = ball;
-    c.other = {true, 0};
+SolverContact wall_contact(int ball, const Vec3& normal, double restitution, double friction) {
+    SolverContact c;
+    c.body = ball;
     c.normal = normal.normalized();
     c.arm = -kR * c.normal;
     c.restitution = restitution;
@@ -45,8 +44,8 @@ TEST(CoulombImpact, ASpinningBallInAGroove) {
                 bodies[0].mass = 1;
                 bodies[0].inertia = 0.4 * kR * kR;
                 bodies[0].velocities = {{0, 0, -speed}, {0, spin, 0}};
-                std::vector<Contact> contacts = {wall_contact(0, {1, 0, 1}, e, mu),
-                                                 wall_contact(0, {-1, 0, 1}, e, mu)};
+                std::vector<SolverContact> contacts = {wall_contact(0, {1, 0, 1}, e, mu),
+                                                       wall_contact(0, {-1, 0, 1}, e, mu)};
                 ImpactSolver().solve(bodies, contacts, 0);
                 const double c = (1 + e) * speed / std::sqrt(2);
                 const double small = c * (1 - mu) / (1 + mu * mu);
@@ -65,7 +64,7 @@ struct Off {
     double cone = 0, grip = 0, newton = 0;
 };
 
-void add(Off& off, const Contact& c, double speed) {
+void add(Off& off, const SolverContact& c, double speed) {
     off.newton = std::max(off.newton, -c.separation_speed / speed);
     off.cone = std::max(off.cone, (c.tangential_impulse - c.friction * c.impulse) / speed);
     // Contacts that give nothing neither grip nor slip.
@@ -86,7 +85,7 @@ TEST(CoulombImpact, ConesGripAndEnergyInCorners) {
         const double e = share(random), mu = 1.5 * share(random);
         bodies[0].velocities = {{unit(random), unit(random), -3},
                                 Vec3(unit(random), unit(random), unit(random)) * 60};
-        std::vector<Contact> contacts;
+        std::vector<SolverContact> contacts;
         const int walls = 2 + trial % 3;
         for (int i = 0; i < walls; ++i) {
             const double angle = 2 * M_PI * (i + 0.3 * unit(random)) / walls;
@@ -96,7 +95,7 @@ TEST(CoulombImpact, ConesGripAndEnergyInCorners) {
         }
         const double before = energy_of(bodies);
         ImpactSolver().solve(bodies, contacts, 0);
-        for (const Contact& c : contacts) {
+        for (const SolverContact& c : contacts) {
             add(off, c, 3);
             friction_acted += c.tangential_impulse > 0;
         }
@@ -121,15 +120,15 @@ TEST(CoulombImpact, ACueBallOntoTwoKeepsMomentumAndSymmetry) {
                 b.inertia = 0.4 * kR * kR;
             }
             bodies[0].velocities = {{1, 0, 0}, {spin, 0, 0}};
-            std::vector<Contact> contacts;
+            std::vector<SolverContact> contacts;
             for (const double side : {1.0, -1.0}) {
-                Contact c;
-                c.ball = 0;
-                c.other = {false, side > 0 ? 1 : 2};
+                SolverContact c;
+                c.body = 0;
+                c.other_body = side > 0 ? 1 : 2;
                 c.normal = -Vec3(std::cos(M_PI / 6), side * std::sin(M_PI / 6), 0);
                 c.arm = -kR * c.normal;
                 c.arm_other = kR * c.normal;
-                bodies[static_cast<std::size_t>(c.other.index)].position = -2 * kR * c.normal;
+                bodies[static_cast<std::size_t>(c.other_body)].position = -2 * kR * c.normal;
                 c.restitution = 0.9;
                 c.friction = mu;
                 contacts.push_back(c);
@@ -139,7 +138,7 @@ TEST(CoulombImpact, ACueBallOntoTwoKeepsMomentumAndSymmetry) {
             Vec3 momentum = Vec3::Zero();
             Off off;
             for (const ImpactBody& b : bodies) momentum += b.mass * b.velocities.linear;
-            for (const Contact& c : contacts) add(off, c, 1);
+            for (const SolverContact& c : contacts) add(off, c, 1);
             EXPECT_LE((momentum - Vec3(1, 0, 0)).norm(), 1e-14) << mu;
             EXPECT_LE(energy_of(bodies), before * (1 + 1e-13)) << mu;
             EXPECT_LE(off.cone, 1e-12) << mu;

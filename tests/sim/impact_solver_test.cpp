@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/solve/impact_sweeps.h"
+#include "sim/solve/contact_sweeps.h"
 
 namespace carom {
 namespace {
@@ -18,10 +18,9 @@ ImpactBody ball(const Vec3& position, const Vec3& velocity, double mass = 1, dou
     return {position, {velocity, Vec3::Zero()}, mass, k * mass * kRadius * kRadius};
 }
 
-Contact on_surface(int index, const Vec3& normal, double e, double mu = 0) {
-    Contact c;
-    c.ball = index;
-    c.other = {true, 0};
+SolverContact on_surface(int index, const Vec3& normal, double e, double mu = 0) {
+    SolverContact c;
+    c.body = index;
     c.normal = normal;
     c.arm = -kRadius * normal;
     c.restitution = e;
@@ -29,10 +28,10 @@ Contact on_surface(int index, const Vec3& normal, double e, double mu = 0) {
     return c;
 }
 
-Contact between(int a, int b, const std::vector<ImpactBody>& bodies, double e) {
-    Contact c;
-    c.ball = a;
-    c.other = {false, b};
+SolverContact between(int a, int b, const std::vector<ImpactBody>& bodies, double e) {
+    SolverContact c;
+    c.body = a;
+    c.other_body = b;
     c.normal = (bodies[std::size_t(a)].position - bodies[std::size_t(b)].position).normalized();
     c.arm = -kRadius * c.normal;
     c.arm_other = kRadius * c.normal;
@@ -57,7 +56,7 @@ TEST_P(SingleContact, FrictionAtEveryAzimuth) {
                 const Vec3 along(std::cos(b), std::sin(b), 0);
                 std::vector<ImpactBody> bodies = {
                     ball(Vec3(3, 1, 2), 3 * along - 5 * Vec3::UnitZ(), 1, k)};
-                std::vector<Contact> contacts = {on_surface(0, Vec3::UnitZ(), 0.8, mu)};
+                std::vector<SolverContact> contacts = {on_surface(0, Vec3::UnitZ(), 0.8, mu)};
                 solver.solve(bodies, contacts, 0);
                 const bool grips = mu >= 3 / ((1 + 1 / k) * 1.8 * 5);
                 const double v = grips ? 3 / (1 + k) : 3 - mu * 9;
@@ -87,12 +86,12 @@ TEST(ImpactSolver, OneContactIsAsOdeSolvesIt) {
                                           ball(vector(), 3 * vector(), 2, 2.0 / 3)};
         bodies[1].position = bodies[0].position + 2 * kRadius * vector().normalized();
         for (ImpactBody& b : bodies) b.velocities.spin = 20 * vector();
-        std::vector<Contact> contacts = {
+        std::vector<SolverContact> contacts = {
             i % 2 == 0 ? between(0, 1, bodies, 0.5 + 0.5 * uniform(random))
                        : on_surface(0, vector().normalized(), 0.5 + 0.5 * uniform(random))};
         contacts[0].friction = i % 3 == 0 ? 0 : 0.5 + 0.5 * uniform(random);
         std::vector<ImpactBody> same = bodies;
-        std::vector<Contact> same_contacts = contacts;
+        std::vector<SolverContact> same_contacts = contacts;
         closed.solve(bodies, contacts, 0);
         ode.solve(same, same_contacts, 0);
         for (std::size_t b = 0; b < 2; ++b) {
@@ -116,8 +115,9 @@ TEST(ImpactSolver, Grooves) {
         for (const double e : {1.0, 0.5, 0.0}) {
             const double a = (90 - opening / 2) * M_PI / 180;
             std::vector<ImpactBody> bodies = {ball(Vec3::Zero(), Vec3(0, 0, -2))};
-            std::vector<Contact> contacts = {on_surface(0, Vec3(std::sin(a), 0, std::cos(a)), e),
-                                             on_surface(0, Vec3(-std::sin(a), 0, std::cos(a)), e)};
+            std::vector<SolverContact> contacts = {
+                on_surface(0, Vec3(std::sin(a), 0, std::cos(a)), e),
+                on_surface(0, Vec3(-std::sin(a), 0, std::cos(a)), e)};
             solver.solve(bodies, contacts, 0);
             EXPECT_NEAR(bodies[0].velocities.linear.z(), 2 * e, 1e-13) << opening;
             EXPECT_NEAR(bodies[0].velocities.linear.x(), 0, 1e-14) << opening;
@@ -127,7 +127,7 @@ TEST(ImpactSolver, Grooves) {
 TEST(ImpactSolver, FourRedundantContacts) {
     ImpactSolver solver;
     std::vector<ImpactBody> bodies = {ball(Vec3::Zero(), Vec3(0, 0, -2))};
-    std::vector<Contact> contacts;
+    std::vector<SolverContact> contacts;
     for (const Vec3& n : {Vec3(1, 0, 1), Vec3(-1, 0, 1), Vec3(0, 1, 1), Vec3(0, -1, 1)})
         contacts.push_back(on_surface(0, n.normalized(), 0.7));
     solver.solve(bodies, contacts, 0);
@@ -139,7 +139,7 @@ TEST(ImpactSolver, MassRatios) {
     for (const double ratio : {1e-9, 1e-3, 1.0, 1e6, 1e9}) {
         std::vector<ImpactBody> bodies = {ball(Vec3(0, 0, 0), Vec3(2, 0, 0)),
                                           ball(Vec3(0.2, 0, 0), Vec3(-1, 0, 0), ratio)};
-        std::vector<Contact> contacts = {between(0, 1, bodies, 0.5)};
+        std::vector<SolverContact> contacts = {between(0, 1, bodies, 0.5)};
         solver.solve(bodies, contacts, 0);
         const double impulse = 1.5 * 3 * ratio / (1 + ratio);
         EXPECT_LE(std::abs(bodies[0].velocities.linear.x() - (2 - impulse)), 1e-13) << ratio;
@@ -154,7 +154,7 @@ TEST(ImpactSolver, ChainsAtOnceKeepMomentum) {
     ImpactSolver solver;
     for (const std::size_t balls : {3u, 5u, 9u, 20u}) {
         std::vector<ImpactBody> bodies;
-        std::vector<Contact> contacts;
+        std::vector<SolverContact> contacts;
         for (std::size_t i = 0; i < balls; ++i)
             bodies.push_back(ball(Vec3(0.2 * double(i), 0, 0), Vec3(i == 0 ? 1 : 0, 0, 0)));
         for (int i = 0; i + 1 < static_cast<int>(balls); ++i)
@@ -177,7 +177,7 @@ TEST(ImpactSweeps, AgreeWithOde) {
     double worst = 0;
     for (int trial = 0; trial < 50; ++trial) {
         std::vector<ImpactBody> bodies = {ball(Vec3::Zero(), Vec3(unit(random), unit(random), 0))};
-        std::vector<Contact> contacts;
+        std::vector<SolverContact> contacts;
         for (int i = 0; i < 4; ++i) {
             const double a = (90.0 * i + 10 * unit(random)) * M_PI / 180;
             bodies.push_back(ball(0.2 * Vec3(std::cos(a), std::sin(a), 0),
@@ -185,7 +185,7 @@ TEST(ImpactSweeps, AgreeWithOde) {
             contacts.push_back(between(0, i + 1, bodies, 0.5));
         }
         std::vector<ImpactBody> swept = bodies;
-        std::vector<Contact> swept_contacts = contacts;
+        std::vector<SolverContact> swept_contacts = contacts;
         solver.solve(bodies, contacts, 0);
         for (std::size_t i = 0; i < contacts.size(); ++i)
             swept_contacts[i].approach_speed = contacts[i].approach_speed;
@@ -203,7 +203,7 @@ TEST(ImpactSweeps, CoulombsCone) {
         const double b = azimuth * M_PI / 180;
         const Vec3 along(std::cos(b), std::sin(b), 0);
         std::vector<ImpactBody> bodies = {ball(Vec3::Zero(), 3 * along - 5 * Vec3::UnitZ())};
-        std::vector<Contact> contacts = {on_surface(0, Vec3::UnitZ(), 0.8, 0.05)};
+        std::vector<SolverContact> contacts = {on_surface(0, Vec3::UnitZ(), 0.8, 0.05)};
         contacts[0].approach_speed = 5;
         solve_by_gauss_seidel(bodies, contacts);
         EXPECT_LE((bodies[0].velocities.linear - 2.55 * along - Vec3(0, 0, 4)).norm(), 1e-13);
@@ -223,7 +223,7 @@ TEST(ImpactSolver, SlowApproachesInAFastHeapNeedNoSweeps) {
             bodies.push_back(
                 ball(Vec3(0.2 * (i % 4) + 0.1 * (i / 4 % 2), 0.1 * std::sqrt(3.0) * (i / 4), 0),
                      Vec3(3, 2, 0) + 1e-6 * Vec3(unit(random), unit(random), 0)));
-        std::vector<Contact> contacts;
+        std::vector<SolverContact> contacts;
         for (int a = 0; a < 12; ++a)
             for (int b = a + 1; b < 12; ++b) {
                 const auto at = [&bodies](int i) { return bodies[std::size_t(i)].position; };
@@ -231,7 +231,7 @@ TEST(ImpactSolver, SlowApproachesInAFastHeapNeedNoSweeps) {
             }
         ASSERT_GT(contacts.size(), 20u);
         solver.solve(bodies, contacts, 0);
-        for (const Contact& c : contacts) worst = std::max(worst, -c.separation_speed);
+        for (const SolverContact& c : contacts) worst = std::max(worst, -c.separation_speed);
     }
     std::printf("sweeps %d, still approaching %.3g m/s\n", int(solver.sweeps()), worst);
     EXPECT_EQ(solver.sweeps(), 0);

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "geometry/nearest.h"
-#include "sim/solve/island_sweeps.h"
+#include "sim/solve/contact_sweeps.h"
 #include "sim/world/seams.h"
 
 namespace carom {
@@ -169,7 +169,7 @@ void ImpactCluster::touch_balls(int ball) {
     const double radius = world_.ball(ball).radius;
     world_.for_each_near(ball, [&](int other) {
         if (has(other) && index_of(other) < place) return;  // looked at from the other side
-        if (world_.ball(other).in_pile) return;             // met by steps of its own
+        if (in_pile(world_.ball(other).phase())) return;    // met by steps of its own
         // Far pairs are the common case: a little more than the sum of the radii excludes them.
         const double reach = 1.001 * (radius + world_.ball(other).radius);
         const Vec3 y = world_.position(other, time_);
@@ -186,6 +186,12 @@ double ImpactCluster::approach(const Contact& c) const {
     const Velocities other =
         c.other.is_surface ? Velocities{} : bodies_[index_of(c.other.index)].velocities;
     return -relative_velocity(c, bodies_[index_of(c.ball)].velocities, other).dot(c.normal);
+}
+
+/// A contact under the numbers that its balls have in the cluster.
+SolverContact ImpactCluster::under_own_numbers(const Contact& c) const {
+    return {c, static_cast<int>(index_of(c.ball)),
+            c.other.is_surface ? -1 : static_cast<int>(index_of(c.other.index))};
 }
 
 /// The contacts that approach at least so fast, for the solver: only the bodies at hand, under
@@ -208,22 +214,21 @@ void ImpactCluster::choose(double slowest) {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
         if (!(speeds_[i] >= slowest)) continue;
         chosen_.push_back(i);
-        Contact c = contacts_[i];
-        c.ball = number(c.ball);
-        if (!c.other.is_surface) c.other.index = number(c.other.index);
-        solver_contacts_.push_back(c);
+        const Contact& c = contacts_[i];
+        const int body = number(c.ball);
+        solver_contacts_.emplace_back(c, body, c.other.is_surface ? -1 : number(c.other.index));
     }
 }
 
 void ImpactCluster::solve(ImpactSolver& solver, bool inelastic, double enough,
                           std::vector<Contact>& impacts) {
     if (inelastic)
-        for (Contact& c : solver_contacts_) c.restitution = 0;
+        for (SolverContact& c : solver_contacts_) c.restitution = 0;
     solver.solve(solver_bodies_, solver_contacts_, time_);
     for (std::size_t k = 0; k < here_.size(); ++k)
         bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
-        const Contact& solved = solver_contacts_[k];
+        const SolverContact& solved = solver_contacts_[k];
         if (impact_of_[chosen_[k]] >= 0 || solved.approach_speed > enough ||
             (inelastic && solved.impulse > 0))
             note_impulse(chosen_[k], solved, impacts);
@@ -231,7 +236,7 @@ void ImpactCluster::solve(ImpactSolver& solver, bool inelastic, double enough,
 }
 
 /// Adds what a contact took to its impact, which begins with the first.
-void ImpactCluster::note_impulse(std::size_t contact, const Contact& solved,
+void ImpactCluster::note_impulse(std::size_t contact, const SolverContact& solved,
                                  std::vector<Contact>& impacts) {
     int& entry = impact_of_[contact];
     if (entry >= 0) {
@@ -241,9 +246,7 @@ void ImpactCluster::note_impulse(std::size_t contact, const Contact& solved,
         return;
     }
     entry = static_cast<int>(impacts.size());
-    impacts.push_back(solved);
-    impacts.back().ball = contacts_[contact].ball;
-    impacts.back().other = contacts_[contact].other;
+    impacts.push_back({solved, contacts_[contact].ball, contacts_[contact].other});
     impacts.back().impact = true;
 }
 
@@ -263,18 +266,13 @@ void ImpactCluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& i
     first_approach_ = approach(contact);
     contact.separation_speed = -first_approach_;
     if (!(first_approach_ > std::max(kRounding * largest_speed_, limits.enough))) return;
-    solver_contacts_.assign(1, contact);
-    Contact& solved = solver_contacts_.front();
-    solved.ball = static_cast<int>(index_of(contact.ball));
-    if (!contact.other.is_surface)
-        solved.other.index = static_cast<int>(index_of(contact.other.index));
+    solver_contacts_.assign(1, under_own_numbers(contact));
     solver.solve(bodies_, solver_contacts_, time_);
+    const SolverContact& solved = solver_contacts_.front();
     contact.separation_speed = solved.separation_speed;
-    solved.ball = contact.ball;
-    solved.other = contact.other;
-    solved.impact = true;
-    solved.separation_speed = std::max(solved.separation_speed, 0.0);
-    impacts.push_back(solved);
+    impacts.push_back({solved, contact.ball, contact.other});
+    impacts.back().impact = true;
+    impacts.back().separation_speed = std::max(solved.separation_speed, 0.0);
 }
 
 /// Of all contacts; and which are each ball's.
@@ -345,7 +343,7 @@ void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
 void ImpactCluster::press_rest(ImpactSolver& solver, std::vector<Contact>& impacts) {
     find_speeds();
     choose(-std::numeric_limits<double>::infinity());
-    for (Contact& c : solver_contacts_) c.restitution = 0;
+    for (SolverContact& c : solver_contacts_) c.restitution = 0;
     solver.solve(solver_bodies_, solver_contacts_, time_);
     for (std::size_t k = 0; k < here_.size(); ++k)
         bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
@@ -363,11 +361,8 @@ void ImpactCluster::contacts_of(int ball, std::vector<Contact>& result) const {
 
 /// Ends an impact that a pile passes to and fro: nothing rebounds any more.
 void ImpactCluster::press_together() {
-    std::vector<Contact> contacts = contacts_;
-    for (Contact& c : contacts) {
-        c.ball = static_cast<int>(index_of(c.ball));
-        if (!c.other.is_surface) c.other.index = static_cast<int>(index_of(c.other.index));
-    }
+    std::vector<SolverContact> contacts;
+    for (const Contact& c : contacts_) contacts.push_back(under_own_numbers(c));
     std::vector<Vec3> pushes(contacts.size(), Vec3::Zero());
     solve_island_by_gauss_seidel(bodies_, contacts, std::vector<double>(contacts.size(), 0.0),
                                  pushes);

@@ -89,12 +89,13 @@ class ImpactCluster {
     void touch_surfaces(int ball);
     void touch_balls(int ball);
     double approach(const Contact& contact) const;
+    SolverContact under_own_numbers(const Contact& contact) const;
     std::size_t rounds_to_end() const;
     void find_speeds();
     void update_speeds();
     void choose(double slowest);
     void solve(ImpactSolver& solver, bool inelastic, double enough, std::vector<Contact>& impacts);
-    void note_impulse(std::size_t contact, const Contact& solved, std::vector<Contact>& impacts);
+    void note_impulse(std::size_t contact, const SolverContact& solved, std::vector<Contact>& impacts);
     void press_rest(ImpactSolver& solver, std::vector<Contact>& impacts);
     void resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits);
     void end_impacts(std::vector<Contact>& impacts);
@@ -118,7 +119,7 @@ class ImpactCluster {
     std::vector<int> number_;  ///< per ball of the cluster: its number for the solver, or -1
     std::vector<std::size_t> here_;
     std::vector<ImpactBody> solver_bodies_;
-    std::vector<Contact> solver_contacts_;
+    std::vector<SolverContact> solver_contacts_;
 };
 
 }  // namespace carom

@@ -31,12 +31,12 @@ constexpr double kShortest = 1.0 / 64;
 double inverse_mass(const ExactWorld& world, int ball) { return 1 / world.ball(ball).mass; }
 
 /// How fast a contact's pair parts, m/s.
-double normal_speed(const Contact& c, const std::vector<ImpactBody>& bodies) {
+double normal_speed(const SolverContact& c, const std::vector<ImpactBody>& bodies) {
     const auto linear = [&](int i) {
         return bodies[static_cast<std::size_t>(i)].velocities.linear;
     };
-    Vec3 relative = linear(c.ball);
-    if (!c.other.is_surface) relative -= linear(c.other.index);
+    Vec3 relative = linear(c.body);
+    if (!c.on_surface()) relative -= linear(c.other_body);
     return relative.dot(c.normal);
 }
 
@@ -143,15 +143,17 @@ std::vector<ImpactBody> IslandStep::bodies(double ahead) const {
 }
 
 /// The contacts under the numbers that the balls have in the island, `ahead` seconds on.
-std::vector<Contact> IslandStep::local_contacts(double ahead) const {
-    std::vector<Contact> local = contacts_;
-    for (Contact& c : local) {
-        c.depth = -gap(c, 0).gap;
-        c.normal = gap(c, ahead).normal;
-        c.arm = -world_.ball(c.ball).radius * c.normal;
-        if (!c.other.is_surface) c.arm_other = world_.ball(c.other.index).radius * c.normal;
-        c.ball = static_cast<int>(index_of(c.ball));
-        if (!c.other.is_surface) c.other.index = static_cast<int>(index_of(c.other.index));
+std::vector<SolverContact> IslandStep::local_contacts(double ahead) const {
+    std::vector<SolverContact> local;
+    for (const Contact& contact : contacts_) {
+        const bool surface = contact.other.is_surface;
+        SolverContact& c =
+            local.emplace_back(contact, static_cast<int>(index_of(contact.ball)),
+                               surface ? -1 : static_cast<int>(index_of(contact.other.index)));
+        c.depth = -gap(contact, 0).gap;
+        c.normal = gap(contact, ahead).normal;
+        c.arm = -world_.ball(contact.ball).radius * c.normal;
+        if (!surface) c.arm_other = world_.ball(contact.other.index).radius * c.normal;
     }
     return local;
 }
@@ -159,9 +161,9 @@ std::vector<Contact> IslandStep::local_contacts(double ahead) const {
 /// What approaches meets without rebound at once: over a step it would overlap before it stops.
 void IslandStep::stop_approaches(IslandSolver& solver) {
     std::vector<ImpactBody> meeting = bodies(0);
-    std::vector<Contact> local = local_contacts(0);
+    std::vector<SolverContact> local = local_contacts(0);
     bool approaches = false;
-    for (Contact& c : local) {
+    for (SolverContact& c : local) {
         const double overlap = c.depth - 0.5 * seconds_ * normal_speed(c, meeting);
         if (normal_speed(c, meeting) >= 0 || overlap <= kSlop * c.arm.norm()) continue;
         approaches = true;
@@ -186,7 +188,7 @@ void IslandStep::solve(IslandSolver& solver) {
     stop_approaches(solver);
     keep_energy_at_start();
     const double full = seconds_;
-    std::vector<Contact> local;
+    std::vector<SolverContact> local;
     for (;;) {
         std::vector<ImpactBody> moving = bodies(0.5 * seconds_);
         local = local_contacts(0.5 * seconds_);
@@ -200,13 +202,8 @@ void IslandStep::solve(IslandSolver& solver) {
         seconds_ *= part;
         for (Vec3& push : pushes_) push *= part;
     }
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const int ball = contacts_[i].ball;
-        const Partner other = contacts_[i].other;
-        contacts_[i] = local[i];
-        contacts_[i].ball = ball;
-        contacts_[i].other = other;
-    }
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+        contacts_[i] = {local[i], contacts_[i].ball, contacts_[i].other};
 }
 
 void IslandStep::set_rates() {

@@ -62,7 +62,7 @@ class IslandStep {
   private:
     Nearest gap(const Contact& contact, double ahead) const;
     std::vector<ImpactBody> bodies(double ahead) const;
-    std::vector<Contact> local_contacts(double ahead) const;
+    std::vector<SolverContact> local_contacts(double ahead) const;
     void stop_approaches(IslandSolver& solver);
     void set_start(const std::vector<Velocities>& velocities);
     void set_rates();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/solve/gauss_seidel.h"
+
 namespace carom {
 
 namespace {
@@ -13,11 +15,22 @@ void push(PileBody& body, const Vec3& impulse, const Vec3& turn, double sign) {
     body.rim -= body.inverse_spin * turn;
 }
 
-/// Sets one contact right. Returns whether it changed a body by more than `still`.
-class Relaxation {
+class PileRows {
   public:
-    Relaxation(std::vector<PileBody>& bodies, double still) : bodies_(bodies), still_(still) {}
+    /// Changes of a body up to `still` [m/s] do not count.
+    PileRows(std::vector<PileBody>& bodies, std::vector<PileRow>& rows, double still)
+        : bodies_(bodies), rows_(rows), still_(still) {
+        for (PileRow& row : rows_) {
+            body(row.ball).changed = 0;
+            if (row.other >= 0) body(row.other).changed = 0;
+        }
+        for (PileRow& row : rows_) prepare(row);
+    }
 
+    std::size_t size() const { return rows_.size(); }
+    double relax(std::size_t i) { return relax(rows_[i]); }
+
+  private:
     void prepare(PileRow& row) {
         const PileBody& a = body(row.ball);
         double normal = a.inverse_mass, across = a.inverse_mass + a.inverse_spin;
@@ -33,11 +46,11 @@ class Relaxation {
         if (row.push > 0) give(row, row.push * row.normal + row.tangential, row.tangential);
     }
 
-    bool relax(PileRow& row) {
+    double relax(PileRow& row) {
         const int since = row.relaxed;
         PileBody& a = body(row.ball);
         PileBody* b = row.other >= 0 ? &body(row.other) : nullptr;
-        if (a.changed <= since && (b == nullptr || b->changed <= since)) return false;
+        if (a.changed <= since && (b == nullptr || b->changed <= since)) return 0;
         row.relaxed = ++clock_;
 
         const Vec3& n = row.normal;
@@ -61,16 +74,16 @@ class Relaxation {
         push(a, impulse, turn, 1);
         if (b != nullptr) push(*b, impulse, turn, -1);
         const double size = impulse.norm();
-        const bool a_moved = size * a.inverse_mass > still_;
-        const bool b_moved = b != nullptr && size * b->inverse_mass > still_;
+        const double of_a = size * a.inverse_mass, of_b = b != nullptr ? size * b->inverse_mass : 0;
         // The contact itself is right now: only the others of these bodies are called on.
-        if (a_moved) a.changed = clock_ + 1;
-        if (b_moved) b->changed = clock_ + 1;
-        if (a_moved || b_moved) row.relaxed = ++clock_;
-        return a_moved || b_moved;
+        if (of_a > still_) a.changed = clock_ + 1;
+        if (of_b > still_) b->changed = clock_ + 1;
+        const double largest = std::max(of_a, of_b);
+        if (!(largest > still_)) return 0;
+        row.relaxed = ++clock_;
+        return largest;
     }
 
-  private:
     PileBody& body(int i) { return bodies_[static_cast<std::size_t>(i)]; }
     void give(PileRow& row, const Vec3& impulse, const Vec3& tangential) {
         const Vec3 turn = row.normal.cross(tangential);
@@ -79,6 +92,7 @@ class Relaxation {
     }
 
     std::vector<PileBody>& bodies_;
+    std::vector<PileRow>& rows_;
     double still_;
     int clock_ = 0;
 };
@@ -87,20 +101,9 @@ class Relaxation {
 
 void sweep_pile(std::vector<PileBody>& bodies, std::vector<PileRow>& rows,
                 const PileSweeps& sweeps) {
-    Relaxation relaxation(bodies, sweeps.still);
-    for (PileRow& row : rows) {
-        bodies[static_cast<std::size_t>(row.ball)].changed = 0;
-        if (row.other >= 0) bodies[static_cast<std::size_t>(row.other)].changed = 0;
-    }
-    for (PileRow& row : rows) relaxation.prepare(row);
-    for (int sweep = 0; sweep < sweeps.most; ++sweep) {
-        bool moved = false;
-        if (sweep % 2 == 0)
-            for (PileRow& row : rows) moved |= relaxation.relax(row);
-        else
-            for (std::size_t i = rows.size(); i-- > 0;) moved |= relaxation.relax(rows[i]);
-        if (!moved) break;
-    }
+    PileRows contacts(bodies, rows, sweeps.still);
+    gauss_seidel(contacts, SweepOrder::kThereAndBack, sweeps.most,
+                 [](double largest) { return !(largest > 0); });
 }
 
 }  // namespace carom

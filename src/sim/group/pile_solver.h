@@ -1,4 +1,5 @@
-// Velocities of many bodies in many contacts, by sweeps over the contacts.
+// Contacts of a pile as Gauss-Seidel iterations see them (gauss_seidel.h): many bodies in many
+// contacts, whose velocities are all that counts.
 #pragma once
 
 #include <vector>
@@ -37,9 +38,8 @@ struct PileSweeps {
     double still = 1e-6;  ///< m/s: smaller changes of a body do not call on its other contacts
 };
 
-/// Projected Gauss-Seidel over the impulses with Coulomb's true cone (J. J. Moreau, "Unilateral
-/// contact and dry friction in finite freedom dynamics", 1988), from the impulses that the rows
-/// hold at the start. A contact is only looked at again when one of its bodies has changed since.
+/// Gauss-Seidel iterations from the impulses that the rows hold at the start. A contact is only
+/// looked at again when one of its bodies has changed since.
 void sweep_pile(std::vector<PileBody>& bodies, std::vector<PileRow>& rows,
                 const PileSweeps& sweeps);
 

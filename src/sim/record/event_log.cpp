@@ -71,7 +71,8 @@ void EventLog::add_impact(double time, const Contact& contact) {
     const Key key{contact.ball, {!contact.other.is_surface, contact.other.index}};
     if (const auto it = pairs_.find(key); it != pairs_.end()) {
         Pair& pair = it->second;
-        if (pair.kind && pair.gone_steps > 0) add_row(pair.gone_time, EventKind::kLeave, pair.last);
+        if (pair.kind.is_stated() && pair.gone_steps > 0)
+            add_row(pair.gone_time, EventKind::kLeave, pair.last);
         pairs_.erase(it);
     }
     add_row(time, EventKind::kImpact, contact);
@@ -88,33 +89,20 @@ void EventLog::watch(double time, const Contact& contact, const std::vector<Velo
     const Key key{contact.ball, {!contact.other.is_surface, contact.other.index}};
     const auto [it, is_new] = pairs_.try_emplace(key);
     Pair& pair = it->second;
-    if (is_new) pair.from_start = first_step_;
+    if (is_new && first_step_) pair.kind.begins_at_start();
     pair.last = contact;
     pair.seen = true;
     pair.gone_steps = 0;
 
     const EventKind kind = kind_of(contact, after);
-    if (pair.kind == kind) {
-        pair.candidate.reset();
-        return;
-    }
-    if (pair.candidate != kind) {
-        pair.candidate = kind;
-        pair.candidate_time = time;
-        pair.candidate_steps = 0;
-    }
     // A rest counts from where the ball stopped, but is not stated while position correction still
     // lifts it: that is no motion, but its end is awaited.
-    if (kind == EventKind::kRest && contact.separation_speed > rules_.rest_speed) return;
-    ++pair.candidate_steps;
-    if (pair.candidate_steps >= (kind == EventKind::kRest ? kRestSteps : kKindSteps)) state(pair);
-}
-
-void EventLog::state(Pair& pair) {
-    pair.kind = pair.candidate;
-    pair.candidate.reset();
-    if (!pair.from_start) add_row(pair.candidate_time, *pair.kind, pair.last);
-    pair.from_start = false;
+    if (kind == EventKind::kRest && contact.separation_speed > rules_.rest_speed)
+        return pair.kind.see(kind, time);
+    const int steps = kind == EventKind::kRest ? kRestSteps : kKindSteps;
+    if (!pair.kind.persists(kind, time, steps)) return;
+    const double since = pair.kind.since();
+    if (pair.kind.state(kind)) add_row(since, kind, contact);
 }
 
 void EventLog::drop_departed(double time) {
@@ -130,7 +118,8 @@ void EventLog::drop_departed(double time) {
             continue;
         }
         // Also what touched at time 0 and left before its kind was sure.
-        if (pair.kind || pair.from_start) add_row(pair.gone_time, EventKind::kLeave, pair.last);
+        if (pair.kind.is_stated() || pair.kind.from_start())
+            add_row(pair.gone_time, EventKind::kLeave, pair.last);
         it = pairs_.erase(it);
     }
 }
@@ -138,7 +127,8 @@ void EventLog::drop_departed(double time) {
 bool EventLog::all_at_rest() const {
     std::vector<bool> rests(static_cast<std::size_t>(balls_), false);
     for (const auto& [key, pair] : pairs_) {
-        if (pair.kind != EventKind::kRest || pair.candidate || !pair.seen) return false;
+        if (pair.kind.stated() != EventKind::kRest || pair.kind.wavers() || !pair.seen)
+            return false;
         rests[static_cast<std::size_t>(pair.last.ball)] = true;
         if (!pair.last.other.is_surface)
             rests[static_cast<std::size_t>(pair.last.other.index)] = true;

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "motion/motion.h"
 #include "sim/contact/contact.h"
+#include "sim/record/stated_kind.h"
 
 namespace carom {
 
@@ -46,18 +46,14 @@ class EventLog {
 
     /// Steps on end that make a kind of contact, a rest, a departure. A rest must be told from a
     /// ball that is about to roll away.
-    static constexpr int kKindSteps = 3;
-    static constexpr int kRestSteps = 10;
+    static constexpr int kKindSteps = kind_steps::kStep;
+    static constexpr int kRestSteps = kind_steps::kRest;
     static constexpr int kLeaveSteps = 3;
 
   private:
     struct Pair {
-        Contact last;                   ///< as it was when it last touched
-        bool from_start = false;        ///< since time 0, and nothing has been stated yet
-        std::optional<EventKind> kind;  ///< as stated
-        std::optional<EventKind> candidate;
-        double candidate_time = 0;  ///< s
-        int candidate_steps = 0;
+        Contact last;  ///< as it was when it last touched
+        StatedKind kind;
         double gone_time = 0;  ///< s
         int gone_steps = 0;
         bool seen = false;  ///< in this step
@@ -69,7 +65,6 @@ class EventLog {
     void add_impact(double time, const Contact& contact);
     void watch(double time, const Contact& contact, const std::vector<Velocities>& after);
     void drop_departed(double time);
-    void state(Pair& pair);
     void add_row(double time, EventKind kind, const Contact& contact);
 
     EventRules rules_;

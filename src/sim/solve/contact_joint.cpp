@@ -2,7 +2,7 @@
 
 namespace carom {
 
-dContact contact_joint(const Contact& contact, const Vec3& center, const Vec3& slip) {
+dContact contact_joint(const Touch& contact, const Vec3& center, const Vec3& slip) {
     dContact joint = {};
     joint.surface.mode = dContactSoftCFM | dContactSoftERP;  // both 0: not the world's
     to_ode(center + contact.arm, joint.geom.pos);

@@ -14,7 +14,7 @@ inline constexpr double kIslandCfm = 1e-10;
 /// Where the contact is and which way it pushes, without what it does along its normal (see below).
 /// `center` is where ODE has the ball [m]. The first axis of friction lies along `slip` [m/s],
 /// which makes ODE's friction box Coulomb's cone for one contact; any axes do where that is zero.
-dContact contact_joint(const Contact& contact, const Vec3& center, const Vec3& slip);
+dContact contact_joint(const Touch& contact, const Vec3& center, const Vec3& slip);
 
 /// The joint gives Newton's law with the contact's coefficient, whatever the approach speed.
 void let_bounce(dContact& joint, double restitution);

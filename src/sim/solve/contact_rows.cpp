@@ -5,12 +5,12 @@
 
 namespace carom {
 
-ContactRow::ContactRow(std::vector<ImpactBody>& bodies, const Contact& c, double wanted)
-    : ball(&bodies[static_cast<std::size_t>(c.ball)]), contact(&c), target(wanted) {
+ContactRow::ContactRow(std::vector<ImpactBody>& bodies, const SolverContact& c, double wanted)
+    : ball(&bodies[static_cast<std::size_t>(c.body)]), contact(&c), target(wanted) {
     double along = 1 / ball->mass;
     double across = along + c.arm.squaredNorm() / ball->inertia;
-    if (!c.other.is_surface) {
-        other = &bodies[static_cast<std::size_t>(c.other.index)];
+    if (!c.on_surface()) {
+        other = &bodies[static_cast<std::size_t>(c.other_body)];
         along += 1 / other->mass;
         across += 1 / other->mass + c.arm_other.squaredNorm() / other->inertia;
     }

@@ -10,13 +10,13 @@ namespace carom {
 
 /// A contact, the masses that it feels, and the impulse that it has given so far.
 struct ContactRow {
-    /// `ball` and `other` of the contact (unless a surface) index the bodies; the row keeps
+    /// `body` and `other_body` of the contact (unless a surface) index the bodies; the row keeps
     /// pointers to them and to the contact.
-    ContactRow(std::vector<ImpactBody>& bodies, const Contact& contact, double target);
+    ContactRow(std::vector<ImpactBody>& bodies, const SolverContact& contact, double target);
 
     ImpactBody* ball = nullptr;
     ImpactBody* other = nullptr;  ///< null for a surface
-    const Contact* contact = nullptr;
+    const SolverContact* contact = nullptr;
     double target = 0;               ///< least speed along the normal afterwards, m/s
     double normal_mass = 0;          ///< kg: impulse per change of the speed along the normal
     double tangential_mass = 0;      ///< kg, the same across it, spin included

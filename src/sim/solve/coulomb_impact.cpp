@@ -121,12 +121,12 @@ bool find_largest_share(CoulombLaws& laws, Eigen::VectorXd& y) {
 
 }  // namespace
 
-bool solve_with_friction(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts) {
+bool solve_with_friction(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts) {
     CoulombLaws laws(bodies, contacts);
     Eigen::VectorXd y;
     if (!find_largest_share(laws, y)) return false;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        Contact& c = contacts[i];
+        SolverContact& c = contacts[i];
         const Vec3 impulse = laws.impulse(i, y);
         ContactRow(bodies, c, 0).push(impulse);
         c.impulse = std::max(impulse.dot(c.normal), 0.0);
@@ -135,8 +135,8 @@ bool solve_with_friction(std::vector<ImpactBody>& bodies, std::vector<Contact>& 
     return true;
 }
 
-bool obeys_friction(const std::vector<ImpactBody>& before, const std::vector<Contact>& contacts,
-                    const std::vector<Vec3>& impulses) {
+bool obeys_friction(const std::vector<ImpactBody>& before,
+                    const std::vector<SolverContact>& contacts, const std::vector<Vec3>& impulses) {
     const CoulombLaws laws(before, contacts);
     const Eigen::VectorXd y = laws.unknowns_of(impulses);
     return left_of(laws.residual(y)) <= kObeyed * laws.scale(y);

@@ -25,11 +25,11 @@ namespace carom {
 /// Solves it to rounding. Reads normal, arms, restitution, friction and approach_speed of the
 /// contacts; sets the velocities of the bodies and impulse and tangential_impulse of the contacts.
 /// False, with nothing changed, where no solution was found.
-bool solve_with_friction(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts);
+bool solve_with_friction(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts);
 
 /// Whether these impulses [N s on the contact's ball] obey the law with s = 1 for the bodies as
 /// they were before.
-bool obeys_friction(const std::vector<ImpactBody>& before, const std::vector<Contact>& contacts,
-                    const std::vector<Vec3>& impulses);
+bool obeys_friction(const std::vector<ImpactBody>& before,
+                    const std::vector<SolverContact>& contacts, const std::vector<Vec3>& impulses);
 
 }  // namespace carom

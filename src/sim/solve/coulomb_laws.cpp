@@ -17,12 +17,12 @@ constexpr double kSumRounding = 64 * std::numeric_limits<double>::epsilon();
 constexpr double kSqueeze = 100;
 
 /// A contact's arm from the centre of this ball, and the sign of its impulse on it; 0 for others.
-double side_of(const Contact& c, int body, Vec3& arm) {
-    if (c.ball == body) {
+double side_of(const SolverContact& c, int body, Vec3& arm) {
+    if (c.body == body) {
         arm = c.arm;
         return 1;
     }
-    if (c.other.is_surface || c.other.index != body) return 0;
+    if (c.on_surface() || c.other_body != body) return 0;
     arm = c.arm_other;
     return -1;
 }
@@ -47,22 +47,22 @@ Eigen::Index at(std::size_t contact) { return static_cast<Eigen::Index>(3 * cont
 }  // namespace
 
 CoulombLaws::CoulombLaws(const std::vector<ImpactBody>& bodies,
-                         const std::vector<Contact>& contacts)
+                         const std::vector<SolverContact>& contacts)
     : before_(at(contacts.size())), coupling_(at(contacts.size()), at(contacts.size())) {
     std::vector<int> contacts_of(bodies.size(), 0);
     int most = 1;
     std::vector<ImpactBody> same = bodies;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        const Contact& c = contacts[i];
+        const SolverContact& c = contacts[i];
         const ContactRow row(same, c, 0);
         axes_.push_back(axes_at(c.normal));
         mass_.emplace_back(row.normal_mass, row.tangential_mass, row.tangential_mass);
         kappa_.push_back(c.friction * row.normal_mass / row.tangential_mass);
         target_.push_back(c.restitution * std::max(c.approach_speed, 0.0));
         before_.segment<3>(at(i)) = axes_.back().transpose() * row.speed();
-        most = std::max(most, ++contacts_of[static_cast<std::size_t>(c.ball)]);
-        if (!c.other.is_surface)
-            most = std::max(most, ++contacts_of[static_cast<std::size_t>(c.other.index)]);
+        most = std::max(most, ++contacts_of[static_cast<std::size_t>(c.body)]);
+        if (!c.on_surface())
+            most = std::max(most, ++contacts_of[static_cast<std::size_t>(c.other_body)]);
     }
     agreeing_ = 1.0 / most;
     for (const ImpactBody& b : bodies)
@@ -76,8 +76,8 @@ CoulombLaws::CoulombLaws(const std::vector<ImpactBody>& bodies,
                 const double sign = side_of(contacts[i], body, a) * side_of(contacts[j], body, b);
                 if (sign != 0) both += sign * through(bodies[static_cast<std::size_t>(body)], a, b);
             };
-            add(contacts[i].ball);
-            if (!contacts[i].other.is_surface) add(contacts[i].other.index);
+            add(contacts[i].body);
+            if (!contacts[i].on_surface()) add(contacts[i].other_body);
             coupling_.block<3, 3>(at(i), at(j)) =
                 axes_[i].transpose() * both * axes_[j] * mass_[j].asDiagonal();
         }

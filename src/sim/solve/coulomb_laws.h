@@ -23,7 +23,7 @@ class CoulombLaws {
   public:
     /// `bodies` as before the impact; reads normal, arms, restitution and friction of `contacts`
     /// and approach_speed, from which the targets follow: e max(u, 0).
-    CoulombLaws(const std::vector<ImpactBody>& bodies, const std::vector<Contact>& contacts);
+    CoulombLaws(const std::vector<ImpactBody>& bodies, const std::vector<SolverContact>& contacts);
 
     /// The targets are taken as `share` times their full values.
     void set_share(double share) { share_ = share; }

@@ -8,8 +8,8 @@
 #include "core/failure.h"
 #include "sim/solve/contact_joint.h"
 #include "sim/solve/contact_rows.h"
+#include "sim/solve/contact_sweeps.h"
 #include "sim/solve/coulomb_impact.h"
-#include "sim/solve/impact_sweeps.h"
 #include "sim/solve/ode_bodies.h"
 #include "sim/solve/ode_handles.h"
 #include "sim/solve/ode_messages.h"
@@ -35,9 +35,9 @@ constexpr double kWrong = 1e-11;
 /// What the velocities lose of relative speeds by their own rounding, relative to the largest.
 constexpr double kSpeedRounding = 64 * std::numeric_limits<double>::epsilon();
 
-Velocities other_velocities(const Contact& c, const std::vector<ImpactBody>& bodies) {
-    return c.other.is_surface ? Velocities{}
-                              : bodies[static_cast<std::size_t>(c.other.index)].velocities;
+Velocities other_velocities(const SolverContact& c, const std::vector<ImpactBody>& bodies) {
+    return c.on_surface() ? Velocities{}
+                          : bodies[static_cast<std::size_t>(c.other_body)].velocities;
 }
 
 double energy(const std::vector<ImpactBody>& bodies) {
@@ -50,14 +50,14 @@ double energy(const std::vector<ImpactBody>& bodies) {
 
 /// Whether all contacts separate as Newton's law says, and no energy came from nothing.
 bool is_solved(const std::vector<ImpactBody>& before, const std::vector<ImpactBody>& after,
-               const std::vector<Contact>& contacts) {
+               const std::vector<SolverContact>& contacts) {
     double largest = 0;
-    for (const Contact& c : contacts) largest = std::max(largest, c.approach_speed);
+    for (const SolverContact& c : contacts) largest = std::max(largest, c.approach_speed);
     const double wrong =
         std::max(kWrong * largest, kSpeedRounding * std::max(fastest_centre(before), largest));
-    for (const Contact& c : contacts) {
+    for (const SolverContact& c : contacts) {
         const Vec3 relative = relative_velocity(
-            c, after[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, after));
+            c, after[static_cast<std::size_t>(c.body)].velocities, other_velocities(c, after));
         const double wanted = c.restitution * std::max(c.approach_speed, 0.0);
         if (!(relative.dot(c.normal) >= wanted - wrong)) return false;
     }
@@ -87,20 +87,19 @@ ImpactSolver::ImpactSolver(SingleContacts single)
 
 ImpactSolver::~ImpactSolver() = default;
 
-void ImpactSolver::add_joint(const Contact& contact, std::size_t index) {
-    const dBodyID ball = world_->bodies.at(contact.ball);
+void ImpactSolver::add_joint(const SolverContact& contact, std::size_t index) {
+    const dBodyID ball = world_->bodies.at(contact.body);
     const Vec3 center = from_ode(dBodyGetPosition(ball));
     dContact joint = contact_joint(contact, center, contact.slip);
     let_bounce(joint, contact.restitution);
     const dJointID id = dJointCreateContact(world_->world.get(), world_->contacts.get(), &joint);
-    const dBodyID other =
-        contact.other.is_surface ? nullptr : world_->bodies.at(contact.other.index);
+    const dBodyID other = contact.on_surface() ? nullptr : world_->bodies.at(contact.other_body);
     dJointAttach(id, ball, other);
     dJointSetFeedback(id, &world_->feedback[index]);
 }
 
-bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
-                                  double time) {
+bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies,
+                                  std::vector<SolverContact>& contacts, double time) {
     world_->bodies.place(world_->world.get(), bodies);
     world_->feedback.resize(contacts.size());
     world_->impulses.resize(contacts.size());
@@ -109,7 +108,7 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
     dWorldStep(world_->world.get(), kStep);
     world_->bodies.read(bodies);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        Contact& c = contacts[i];
+        SolverContact& c = contacts[i];
         const Vec3 impulse = kStep * from_ode(world_->feedback[i].f1);
         world_->impulses[i] = impulse;
         c.impulse = std::max(impulse.dot(c.normal), 0.0);
@@ -123,13 +122,13 @@ bool ImpactSolver::solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<C
     return messages.empty();
 }
 
-void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, Contact& c) const {
+void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, SolverContact& c) const {
     if (!(c.friction > 0)) {  // spin takes no part
         const double change = std::max((1 + c.restitution) * c.approach_speed, 0.0);
-        ImpactBody& ball = bodies[static_cast<std::size_t>(c.ball)];
+        ImpactBody& ball = bodies[static_cast<std::size_t>(c.body)];
         double share = 1;
-        if (!c.other.is_surface) {
-            ImpactBody& other = bodies[static_cast<std::size_t>(c.other.index)];
+        if (!c.on_surface()) {
+            ImpactBody& other = bodies[static_cast<std::size_t>(c.other_body)];
             const double both = ball.mass + other.mass;
             share = other.mass / both;
             other.velocities.linear -= ball.mass / both * change * c.normal;
@@ -145,12 +144,13 @@ void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, Contact& c) con
     c.tangential_impulse = row.tangential.norm();
 }
 
-void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
                               double time) {
     before_ = bodies;
     const bool several = contacts.size() > 1, many = contacts.size() > kMostForOde;
-    const bool friction = several && std::any_of(contacts.begin(), contacts.end(),
-                                                 [](const Contact& c) { return c.friction > 0; });
+    const bool friction =
+        several && std::any_of(contacts.begin(), contacts.end(),
+                               [](const SolverContact& c) { return c.friction > 0; });
     if (!many && solve_with_ode(bodies, contacts, time) &&
         (!several || is_solved(before_, bodies, contacts)) &&
         (!friction || obeys_friction(before_, contacts, world_->impulses)))
@@ -161,11 +161,11 @@ void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<Conta
     ++sweeps_;
 }
 
-void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
                          double time) {
-    for (Contact& c : contacts) {
+    for (SolverContact& c : contacts) {
         const Vec3 relative = relative_velocity(
-            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
+            c, bodies[static_cast<std::size_t>(c.body)].velocities, other_velocities(c, bodies));
         c.approach_speed = -relative.dot(c.normal);
         c.slip = tangential_part(relative, c.normal);
     }
@@ -173,9 +173,9 @@ void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& 
         solve_single(bodies, contacts.front());
     else
         solve_many(bodies, contacts, time);
-    for (Contact& c : contacts) {
+    for (SolverContact& c : contacts) {
         const Vec3 relative = relative_velocity(
-            c, bodies[static_cast<std::size_t>(c.ball)].velocities, other_velocities(c, bodies));
+            c, bodies[static_cast<std::size_t>(c.body)].velocities, other_velocities(c, bodies));
         c.separation_speed = relative.dot(c.normal);
         c.slip_after = tangential_part(relative, c.normal);
     }

@@ -4,7 +4,7 @@
 // that one dWorldStep is both laws to rounding, as long as friction does not act on the normal
 // impulses of others: it takes Coulomb's bounds from forces without friction, and a box for the
 // cone. Where its answer does not obey both laws, they are solved together (coulomb_impact.h, which
-// states them), and by sweeps (impact_sweeps.h) where contacts are too many, or ODE fails without
+// states them), and by sweeps (contact_sweeps.h) where contacts are too many, or ODE fails without
 // friction. ODE's answer to one contact is the closed form to rounding, at several times the cost
 // (tests/sim/impact_solver_test.cpp holds the two against each other).
 #pragma once
@@ -27,21 +27,22 @@ class ImpactSolver {
     ImpactSolver(const ImpactSolver&) = delete;
     ImpactSolver& operator=(const ImpactSolver&) = delete;
 
-    /// Solves all `contacts` at once. Their `ball` and `other` (unless a surface) index `bodies`;
-    /// normal, arms, restitution and friction are used. Fills speeds, slips and impulses of the
-    /// contacts, and the velocities of the bodies after the impact.
-    /// Throws Failure(kRun) naming `time` [s] when ODE cannot solve a single contact.
-    void solve(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts, double time);
+    /// Solves all `contacts` at once. Their `body` and `other_body` (unless a surface) index
+    /// `bodies`; normal, arms, restitution and friction are used. Fills speeds, slips and impulses
+    /// of the contacts, and the velocities of the bodies after the impact. Throws Failure(kRun)
+    /// naming `time` [s] when ODE cannot solve a single contact.
+    void solve(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts, double time);
 
     /// How often sweeps had to help so far.
     std::int64_t sweeps() const { return sweeps_; }
 
   private:
     struct World;
-    void solve_single(std::vector<ImpactBody>& bodies, Contact& contact) const;
-    void solve_many(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts, double time);
-    void add_joint(const Contact& contact, std::size_t index);
-    bool solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+    void solve_single(std::vector<ImpactBody>& bodies, SolverContact& contact) const;
+    void solve_many(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
+                    double time);
+    void add_joint(const SolverContact& contact, std::size_t index);
+    bool solve_with_ode(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
                         double time);
 
     SingleContacts single_;

@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "sim/solve/contact_joint.h"
-#include "sim/solve/island_sweeps.h"
+#include "sim/solve/contact_sweeps.h"
 #include "sim/solve/ode_bodies.h"
 #include "sim/solve/ode_handles.h"
 #include "sim/solve/ode_messages.h"
@@ -24,11 +24,10 @@ constexpr double kTie = 1e-6;
 /// Speeds that differ by this fraction of the balls' speeds are equal.
 constexpr double kSpeedRounding = 1e-13;
 
-Vec3 relative_of(const Contact& c, const std::vector<ImpactBody>& bodies) {
-    const Velocities other = c.other.is_surface
-                                 ? Velocities{}
-                                 : bodies[static_cast<std::size_t>(c.other.index)].velocities;
-    return relative_velocity(c, bodies[static_cast<std::size_t>(c.ball)].velocities, other);
+Vec3 relative_of(const SolverContact& c, const std::vector<ImpactBody>& bodies) {
+    const Velocities other =
+        c.on_surface() ? Velocities{} : bodies[static_cast<std::size_t>(c.other_body)].velocities;
+    return relative_velocity(c, bodies[static_cast<std::size_t>(c.body)].velocities, other);
 }
 
 double largest_speed(const std::vector<ImpactBody>& bodies) {
@@ -61,16 +60,15 @@ IslandSolver::IslandSolver() : world_(std::make_unique<World>()) {
 
 IslandSolver::~IslandSolver() = default;
 
-void IslandSolver::add_joint(const Contact& contact, std::size_t index) {
-    const dBodyID ball = world_->bodies.at(contact.ball);
+void IslandSolver::add_joint(const SolverContact& contact, std::size_t index) {
+    const dBodyID ball = world_->bodies.at(contact.body);
     const Vec3 center = from_ode(dBodyGetPosition(ball));
     dContact joint = contact_joint(contact, center, world_->axis[index]);
     keep_above(joint, world_->target[index]);
     if (!contact.alone) share_island(joint);
     if (world_->slides[index] != 0) resist_first_axis_only(joint);
     const dJointID id = dJointCreateContact(world_->world.get(), world_->contacts.get(), &joint);
-    const dBodyID other =
-        contact.other.is_surface ? nullptr : world_->bodies.at(contact.other.index);
+    const dBodyID other = contact.on_surface() ? nullptr : world_->bodies.at(contact.other_body);
     dJointAttach(id, ball, other);
     dJointSetFeedback(id, &world_->feedback[index]);
 }
@@ -78,7 +76,7 @@ void IslandSolver::add_joint(const Contact& contact, std::size_t index) {
 /// Where a contact on a surface slides all through the step, friction lies along the slip of the
 /// middle of the step, which makes the step second-order exact where the slip turns:
 /// s + h/2 (g_t - mu g_n (1 + 1/k) s/|s|). Otherwise along the slip that is left without friction.
-void IslandSolver::follow_slip(const Contact& c, const ImpactBody& body, const Vec3& fall,
+void IslandSolver::follow_slip(const SolverContact& c, const ImpactBody& body, const Vec3& fall,
                                std::size_t index) {
     const double k = body.inertia / (body.mass * c.arm.squaredNorm());
     const double speed = c.slip.norm();
@@ -91,7 +89,7 @@ void IslandSolver::follow_slip(const Contact& c, const ImpactBody& body, const V
 
 /// False if ODE's solver gave up; the bodies are then as they were.
 bool IslandSolver::solve_with_ode(std::vector<ImpactBody>& bodies,
-                                  const std::vector<Contact>& contacts, const Vec3& gravity,
+                                  const std::vector<SolverContact>& contacts, const Vec3& gravity,
                                   double seconds) {
     dWorldSetGravity(world_->world.get(), gravity.x(), gravity.y(), gravity.z());
     world_->bodies.place(world_->world.get(), bodies);
@@ -107,7 +105,7 @@ bool IslandSolver::solve_with_ode(std::vector<ImpactBody>& bodies,
     return true;
 }
 
-void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
                         std::vector<Vec3>& pushes, const Vec3& gravity, double seconds) {
     CAROM_CHECK(pushes.size(), ==, contacts.size());
     world_->feedback.resize(contacts.size());
@@ -117,17 +115,17 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<Contact>& c
     world_->slides.resize(contacts.size());
     const double tie = kTie * gravity.norm() * seconds + kSpeedRounding * largest_speed(bodies);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        Contact& c = contacts[i];
+        SolverContact& c = contacts[i];
         const Vec3 relative = relative_of(c, bodies);
         const double v_n = relative.dot(c.normal);
         // Two balls fall alike: gravity only matters against a surface.
-        const Vec3 fall = c.other.is_surface ? Vec3(seconds * gravity) : Vec3(Vec3::Zero());
+        const Vec3 fall = c.on_surface() ? Vec3(seconds * gravity) : Vec3(Vec3::Zero());
         c.approach_speed = -v_n;
         c.slip = tangential_part(relative, c.normal);
         c.alone = contacts.size() == 1;
         world_->axis[i] = c.slip + tangential_part(fall, c.normal);
         world_->slides[i] = 0;
-        if (c.alone && c.other.is_surface) follow_slip(c, bodies.front(), fall, i);
+        if (c.alone && c.on_surface()) follow_slip(c, bodies.front(), fall, i);
         double& target = world_->target[i];
         target = -std::max(v_n, 0.0) - 2 * std::max(-c.depth, 0.0) / seconds;
         if (!c.alone && std::abs(v_n + fall.dot(c.normal) - target) <= tie) target -= 2 * tie;
@@ -139,7 +137,7 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<Contact>& c
     }
     pushes = world_->pushes;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        Contact& c = contacts[i];
+        SolverContact& c = contacts[i];
         const Vec3 relative = relative_of(c, bodies);
         c.separation_speed = relative.dot(c.normal);
         c.slip_after = tangential_part(relative, c.normal);

@@ -26,21 +26,21 @@ class IslandSolver {
     IslandSolver& operator=(const IslandSolver&) = delete;
 
     /// `bodies` stand where they are in the middle of the step, with the velocities of its start;
-    /// they get those of its end. Of `contacts`, whose `ball` and `other` (unless a surface) index
-    /// the bodies, normal, arms, depth (at the start of the step) and friction are used; slips,
-    /// speeds and impulses are filled. `pushes`, one per contact, are the impulses of the step
-    /// before on its ball [N s], zero for a new contact; they are replaced by those of this step.
-    /// Never fails: where ODE's exact solver gives up, or would take too long, sweeps take the
-    /// step.
-    void step(std::vector<ImpactBody>& bodies, std::vector<Contact>& contacts,
+    /// they get those of its end. Of `contacts`, whose `body` and `other_body` (unless a surface)
+    /// index the bodies, normal, arms, depth (at the start of the step) and friction are used;
+    /// slips, speeds and impulses are filled. `pushes`, one per contact, are the impulses of the
+    /// step before on its ball [N s], zero for a new contact; they are replaced by those of this
+    /// step. Never fails: where ODE's exact solver gives up, or would take too long, sweeps take
+    /// the step.
+    void step(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
               std::vector<Vec3>& pushes, const Vec3& gravity, double seconds);
 
   private:
     struct World;
-    void add_joint(const Contact& contact, std::size_t index);
-    void follow_slip(const Contact& contact, const ImpactBody& body, const Vec3& fall,
+    void add_joint(const SolverContact& contact, std::size_t index);
+    void follow_slip(const SolverContact& contact, const ImpactBody& body, const Vec3& fall,
                      std::size_t index);
-    bool solve_with_ode(std::vector<ImpactBody>& bodies, const std::vector<Contact>& contacts,
+    bool solve_with_ode(std::vector<ImpactBody>& bodies, const std::vector<SolverContact>& contacts,
                         const Vec3& gravity, double seconds);
 
     std::unique_ptr<World> world_;

@@ -21,21 +21,12 @@ constexpr double kReach = 1e-5;
 /// Up to this many materials all pairs of them are computed at the start.
 constexpr std::size_t kCachedMaterials = 256;
 
+/// The grid is built anew when its cells should be larger or smaller by this factor.
+constexpr double kMisfit = 1.5;
+
 }  // namespace
 
-ExactWorld::ExactWorld(const Scene& s) : scene(s), pairs(s), balls(s.balls.size()) {
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        const Ball& body = s.balls[i];
-        balls[i].radius = body.radius;
-        balls[i].mass = body.mass;
-        balls[i].inertia_factor = body.inertia_factor;
-        balls[i].material = body.material;
-        Piece& piece = balls[i].piece;
-        piece.position = body.position;
-        piece.velocity = body.velocity;
-        piece.acceleration = s.simulation.gravity;
-        piece.spin = body.spin;
-    }
+ExactWorld::ExactWorld(const Scene& s) : ExactBalls(s), pairs(s) {
     for (int i = 0; i < static_cast<int>(s.surfaces.size()); ++i)
         (is_unbounded(surface(i).shape) ? planes : bounded_surfaces).push_back(i);
     const std::size_t materials = s.materials.size();
@@ -60,6 +51,26 @@ void ExactWorld::build_grid(double t) {
     }
     grid.emplace(positions, radii);
     for (NearList& list : lists_) list.ball = -1;
+}
+
+bool ExactWorld::refit_grid(double t) {
+    Vec3 low = position(0, t), high = low;
+    for (int i = 1; i < static_cast<int>(balls.size()); ++i) {
+        const Vec3 x = position(i, t);
+        low = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+    }
+    const double ratio = grid->cell_size_for(low, high) / grid->cell_size();
+    if (ratio < kMisfit && ratio > 1 / kMisfit) return false;
+    build_grid(t);
+    for (int i = 0; i < static_cast<int>(balls.size()); ++i) renew(i);
+    return true;
+}
+
+void ExactWorld::follow_cell(int i, double t) {
+    if (!grid || !grid->in_cell(i)) return;
+    const NeighbourGrid::Cell cell = grid->cell_at(position(i, t));
+    if (cell != grid->cell_of(i)) grid->move(i, cell);
 }
 
 const std::vector<int>& ExactWorld::near(int ball_index) const {
@@ -103,18 +114,6 @@ void ExactWorld::find_surfaces_ahead(int i, double t, double seconds,
     }
     const HighDegreePath curved = high_degree_path(piece, t, seconds);
     surface_tree->find_near(Box3(curved.c[0]), reach(i) + curved.reach(), found);
-}
-
-Vec3 ExactWorld::position(int i, double t) const { return ball(i).piece.position_at(t); }
-
-Velocities ExactWorld::velocities(int i, double t) const {
-    const Piece& p = ball(i).piece;
-    return {p.velocity_at(t), p.spin_at(t)};
-}
-
-Path ExactWorld::path(int i, double t) const {
-    const Piece& p = ball(i).piece;
-    return {p.position_at(t), p.velocity_at(t), p.acceleration_at(t)};
 }
 
 std::string ExactWorld::name(const Partner& partner) const {

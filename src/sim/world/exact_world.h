@@ -1,4 +1,4 @@
-// The balls of the method `exact` between two events: each has its own clock and its current piece.
+// The world of the method `exact` between two events: balls, and who touches whom.
 #pragma once
 
 #include <array>
@@ -8,69 +8,24 @@
 #include <string>
 #include <vector>
 
-#include "motion/motion.h"
 #include "scene/scene.h"
 #include "sim/collide/neighbour_grid.h"
 #include "sim/collide/surface_tree.h"
 #include "sim/collide/time_of_impact.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/restitution.h"
+#include "sim/world/exact_balls.h"
 
 namespace carom {
 
-/// A ball, from piece.start on. What its neighbours ask for stands first, in two lines of cache.
-struct alignas(64) ExactBall {
-    std::uint64_t stamp = 0;  ///< changes with every new piece: predictions know what they rest on
-    double radius = 0;        ///< m
-    /// m/s: relative speeds below this are what its last impacts left of a zero.
-    double rounding_speed = 0;
-    int surface = -1;            ///< of its lasting contact, -1 in flight
-    bool leaves_at_end = false;  ///< the phase ends because the face does
-    bool stepped = false;        ///< in an island that ODE steps; phase_end is the step's end
-    bool asleep = false;         ///< in such an island, which rests until something touches it
-    bool in_pile = false;        ///< a member of the pile (pile.h), asleep or not
-    Piece piece;
-    double mass = 0;            ///< kg
-    double inertia_factor = 0;  ///< as in Ball
-    int material = 0;
-    EventKind kind = EventKind::kLeave;  ///< of the lasting contact: kSlide, kRoll or kRest
-    Vec3 normal = Vec3::UnitZ();         ///< of the lasting contact
-    double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
-    double impacts_since = 0;  ///< s: its recent impacts are counted from here
-    int recent_impacts = 0;
-    std::uint64_t resolved = 0;  ///< the last instant at which an impact of it was resolved
-    /// ODE steps its island: its gaps and speeds are known to what a step can tell.
-    bool coarse = false;
-    int steps = 0;               ///< taken since it joined an island
-    double stepped_seconds = 0;  ///< the same time, s
-    int calm_steps = 0;          ///< on end, in which it hardly moved
-    int slow_steps = 0;          ///< on end, in which it moved, but slowly
-    /// s, when the row of the lasting contact is due: at the end of its bouncing series.
-    double event_due = std::numeric_limits<double>::infinity();
-};
-
-/// What an island holds; only such a ball has links.
-inline bool has_island(const ExactBall& b) { return b.stepped || b.asleep; }
-
 /// Scene, balls and the geometry of who touches whom.
-class ExactWorld {
+class ExactWorld : public ExactBalls {
   public:
     explicit ExactWorld(const Scene& scene);
 
-    const Scene& scene;
     PairTable pairs;
-    std::vector<ExactBall> balls;
 
-    ExactBall& ball(int i) { return balls[static_cast<std::size_t>(i)]; }
-    const ExactBall& ball(int i) const { return balls[static_cast<std::size_t>(i)]; }
-    const Ball& body(int i) const { return scene.balls[static_cast<std::size_t>(i)]; }
     const Surface& surface(int i) const { return scene.surfaces[static_cast<std::size_t>(i)]; }
-    BallState state(int i, double t) const { return ball(i).piece.at(t); }
-    /// The same without the orientation, which is what costs time.
-    Vec3 position(int i, double t) const;
-    Velocities velocities(int i, double t) const;
-    /// The path of a ball's centre from t on.
-    Path path(int i, double t) const;
     std::string name(const Partner& partner) const;
 
     double place_rounding = 0;  ///< m: of the places that the scene came with (ExactOptions)
@@ -102,6 +57,11 @@ class ExactWorld {
     /// Empty while balls are few: then each looks at all others.
     std::optional<NeighbourGrid> grid;
     void build_grid(double t);
+    /// Builds the grid anew where balls have spread or gathered so far that its cells do not fit
+    /// any more. Whether it did: then all predictions have to be made anew.
+    bool refit_grid(double t);
+    /// The ball is moved to the cell that it is in at t.
+    void follow_cell(int i, double t);
 
     /// Calls f(other) for every ball that could touch `ball`, and maybe for more. An impact asks
     /// twice for the balls near it: once who else is touched, then what comes next.
@@ -124,13 +84,6 @@ class ExactWorld {
         list.others.clear();
         grid->for_each_in_layer(ball_index, axis, side, [&](int other) { add_to(list, other); });
         for (const int other : list.others) f(other);
-    }
-
-    /// Has a ball's memory on its way when it is looked at a little later.
-    void fetch(int i) const {
-        const auto* bytes = reinterpret_cast<const char*>(&ball(i));
-        __builtin_prefetch(bytes);
-        __builtin_prefetch(bytes + 64);
     }
 
     std::vector<int> planes, bounded_surfaces;  ///< the surfaces of both kinds, ascending

@@ -8,6 +8,7 @@
 
 #include "motion/motion.h"
 #include "sim/contact/contact.h"
+#include "sim/record/stated_kind.h"
 
 namespace carom {
 
@@ -20,12 +21,16 @@ struct Link {
     // What the rows of EVENTS.csv say about it, kept with the ball that the scene names first.
     Contact last;  ///< as it was when it last pressed
     bool pressed = false;
-    double event_due = 0;     ///< s: the end of its bouncing series, before which nothing is stated
-    bool from_start = false;  ///< it exists at time 0: its first kind is no news
-    EventKind stated = EventKind::kLeave;
-    EventKind candidate = EventKind::kLeave;
-    double candidate_since = 0;  ///< s
-    int candidate_steps = 0;
+    double event_due = 0;  ///< s: the end of its bouncing series, before which nothing is stated
+    StatedKind kind;
+};
+
+/// A ball as a member of its island, since it joined.
+struct IslandMember {
+    int steps = 0;               ///< taken or integrated
+    double stepped_seconds = 0;  ///< of those that ODE took, s
+    int calm_steps = 0;          ///< on end, in which it hardly moved
+    int slow_steps = 0;          ///< on end, in which it moved, but slowly
 };
 
 /// Instants that differ by so many roundings are one.
@@ -36,10 +41,13 @@ inline bool row_waits(const Link& link, double now) {
     return link.event_due > now * (1 + kSameInstant);
 }
 
-/// Per ball, its links. A link between two balls stands with both of them.
+/// Per ball, its links and what it is to its island. A link between two balls stands with both of them.
 class Links {
   public:
-    explicit Links(std::size_t balls) : of_(balls) {}
+    explicit Links(std::size_t balls) : of_(balls), members_(balls) {}
+
+    IslandMember& member(int ball) { return members_[static_cast<std::size_t>(ball)]; }
+    const IslandMember& member(int ball) const { return members_[static_cast<std::size_t>(ball)]; }
 
     std::vector<Link>& of(int ball) { return of_[static_cast<std::size_t>(ball)]; }
     const std::vector<Link>& of(int ball) const { return of_[static_cast<std::size_t>(ball)]; }
@@ -52,8 +60,20 @@ class Links {
         return found == links.end() ? nullptr : &*found;
     }
 
+    /// The links of a ball end, on both sides.
+    void drop(int ball) {
+        for (const Link& link : of(ball))
+            if (!link.partner.is_surface) unlink(link.partner.index, {false, ball});
+        of(ball).clear();
+    }
+    /// A ball's own link to a partner ends, that of the partner to it stays.
+    void unlink(int ball, const Partner& partner) {
+        std::erase_if(of(ball), [&](const Link& link) { return link.partner == partner; });
+    }
+
   private:
     std::vector<std::vector<Link>> of_;
+    std::vector<IslandMember> members_;
 };
 
 }  // namespace carom

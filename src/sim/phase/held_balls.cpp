@@ -1,8 +1,8 @@
-// One ball on one contact without a closed form: its phases, each integrated piece by piece.
-#include <algorithm>
-#include <cmath>
+#include "sim/phase/held_balls.h"
 
-#include "sim/exact/run.h"
+#include <algorithm>
+#include <limits>
+
 #include "sim/world/seams.h"
 
 namespace carom {
@@ -24,57 +24,82 @@ constexpr int kMostInVain = 40;
 /// of a slip takes.
 constexpr double kFirstStepped = 1e-3;
 
-EventKind kind_of(ContactMode mode) {
-    return mode == ContactMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
-}
-
 bool is_plane(const SingleContact& contact) { return contact.across.trace() < 1.5; }
 
 }  // namespace
 
-/// A single lasting contact with a surface goes on, in closed form if there is one.
-void ExactRun::begin_contact(int ball, double now, const Contact& contact,
-                             const Velocities& velocities, double bounce_time_left, bool at_start) {
+bool HeldBalls::is_given_up(int ball, double now) const {
+    const auto phase = integrated_.find(ball);
+    return phase != integrated_.end() && now < phase->second.stepped_until;
+}
+
+Velocities HeldBalls::give_up(int ball, double now) {
+    const Velocities velocities = world_.velocities(ball, now);
+    integrated_[ball].state = {world_.position(ball, now), velocities.linear, velocities.spin};
+    return step_instead(ball, now);
+}
+
+HeldBalls::Handover HeldBalls::end_phase(int ball, double now) {
+    ExactBall& b = world_.ball(ball);
+    if (b.event_due <= now) {
+        b.event_due = kInfinity;
+        log_.add_of_held(b.kind, ball, now);
+    }
+    if (b.phase_end > now) {
+        world_.renew(ball);
+        return {};
+    }
+    const Velocities velocities = world_.velocities(ball, now);
+    if (b.phase() == Phase::kIntegrated) return end_integrated(ball, now);
+    const Contact c = world_.contact_at(ball, {true, b.surface}, now);
+    if (!b.leaves_at_end) return begin(ball, now, c, velocities, {});
+    if (const auto over = go_over_seam(ball, now, velocities)) return *over;
+    return begin_integrated(ball, now, c, velocities, {});
+}
+
+HeldBalls::Handover HeldBalls::begin(int ball, double now, const Contact& contact,
+                                     const Velocities& velocities, const Onset& onset) {
     const Vec3 v = tangential_part(velocities.linear, contact.normal);
     const SingleContact feature =
         single_contact(world_.surface(contact.other.index).shape, world_.position(ball, now), v,
                        world_.ball(ball).radius, world_.scene.simulation.gravity);
     // At the border of a face the motion says whether it is still on it.
-    if (is_plane(feature) && can_hold(ball, now, contact, velocities))
-        begin_flat_contact(ball, now, contact, velocities, bounce_time_left, at_start);
+    if (is_plane(feature) && forms_.can_hold(ball, now, contact, velocities))
+        forms_.begin_flat_contact(ball, now, contact, velocities, onset);
     else
-        begin_integrated(ball, now, contact, velocities, bounce_time_left, at_start);
+        return begin_integrated(ball, now, contact, velocities, onset);
+    return {};
 }
 
 /// Where the feature that holds the ball ends, another surface that touches it may go on: then
-/// nothing happens to the ball.
-bool ExactRun::go_over_seam(int ball, double now, const Velocities& velocities) {
+/// nothing happens to the ball. Empty where none does.
+std::optional<HeldBalls::Handover> HeldBalls::go_over_seam(int ball, double now,
+                                                           const Velocities& velocities) {
     const Contact held = world_.contact_at(ball, {true, world_.ball(ball).surface}, now);
     const std::optional<SurfaceContact> next =
         goes_on_with(world_, held, world_.position(ball, now), velocities);
-    if (!next) return false;
+    if (!next) return {};
     world_.ball(ball).surface = next->contact.other.index;
-    if (is_plane(next->feature) && can_hold(ball, now, next->contact, velocities))
-        begin_flat_contact(ball, now, next->contact, velocities, 0, false);
+    if (is_plane(next->feature) && forms_.can_hold(ball, now, next->contact, velocities))
+        forms_.begin_flat_contact(ball, now, next->contact, velocities, {});
     else
-        begin_integrated_on(ball, now, next->contact, next->feature, velocities, 0, false);
-    return true;
+        return begin_integrated_on(ball, now, next->contact, next->feature, velocities, {});
+    return Handover{};
 }
 
-/// The same, integrated.
-void ExactRun::begin_integrated(int ball, double now, const Contact& contact,
-                                const Velocities& velocities, double bounce_time_left,
-                                bool at_start) {
+HeldBalls::Handover HeldBalls::begin_integrated(int ball, double now, const Contact& contact,
+                                                const Velocities& velocities, const Onset& onset) {
     const SingleContact feature =
         single_contact(world_.surface(contact.other.index).shape, world_.position(ball, now),
                        tangential_part(velocities.linear, contact.normal), world_.ball(ball).radius,
                        world_.scene.simulation.gravity);
-    begin_integrated_on(ball, now, contact, feature, velocities, bounce_time_left, at_start);
+    return begin_integrated_on(ball, now, contact, feature, velocities, onset);
 }
 
-void ExactRun::begin_integrated_on(int ball, double now, const Contact& contact,
-                                   const SingleContact& feature, const Velocities& velocities,
-                                   double bounce_time_left, bool at_start) {
+HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const Contact& contact,
+                                                   const SingleContact& feature,
+                                                   const Velocities& velocities,
+                                                   const Onset& onset) {
     const ExactBall& body = world_.ball(ball);
     const Vec3& gravity = world_.scene.simulation.gravity;
     IntegratedPhase& phase = integrated_[ball];
@@ -85,30 +110,27 @@ void ExactRun::begin_integrated_on(int ball, double now, const Contact& contact,
     phase.contact.friction = contact.friction;
     phase.next_seconds = 0;
     project(phase.contact, ContactMode::kSmooth, phase.state);
-    const SingleContactForces forces = choose_mode(phase, slip_tolerance(ball, now, velocities));
-    if (!(forces.push > lift_off_threshold(phase.contact, phase.state.x))) {
-        lift_off(ball, now, contact.other, forces.normal);
-        return;
-    }
+    const SingleContactForces forces =
+        choose_mode(phase, rules_.slip_tolerance(ball, now, velocities));
+    if (!(forces.push > lift_off_threshold(phase.contact, phase.state.x)))
+        return lift_off(ball, now, contact.other, forces.normal);
     const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
     Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
     const bool rests = still && pull.norm() <= kBalanced * gravity.norm();
-    begin_flat_piece(ball, now, {true, contact.other.index}, forces.normal,
-                     rests ? EventKind::kRest : kind_of(phase.mode), bounce_time_left, at_start);
-    if (!rests) {
-        advance(ball, now);
-        return;
-    }
+    forms_.hold(ball, now, Phase::kIntegrated, contact.other.index, forces.normal,
+                rests ? EventKind::kRest : kind_of(phase.mode), onset);
+    if (!rests) return advance(ball, now);
     BallState at = world_.state(ball, now);
     at.position = phase.state.x;
     at.velocity.setZero();
     at.spin = phase.state.w;
     world_.ball(ball).phase_end = kInfinity;
-    begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+    world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+    return {};
 }
 
 /// Whether it slides or rolls, and the forces then.
-SingleContactForces ExactRun::choose_mode(IntegratedPhase& phase, double tolerance) const {
+SingleContactForces HeldBalls::choose_mode(IntegratedPhase& phase, double tolerance) const {
     const auto forces = [&phase](ContactMode mode) {
         phase.mode = mode;
         return single_contact_forces(phase.contact, mode, phase.state);
@@ -121,20 +143,22 @@ SingleContactForces ExactRun::choose_mode(IntegratedPhase& phase, double toleran
     return grip_left(phase.contact, rolling) >= 0 ? rolling : forces(ContactMode::kIncipient);
 }
 
-void ExactRun::lift_off(int ball, double now, const Partner& surface, const Vec3& normal) {
+HeldBalls::Handover HeldBalls::lift_off(int ball, double now, const Partner& surface,
+                                        const Vec3& normal) {
     ExactBall& b = world_.ball(ball);
     const ContactState& s = integrated_[ball].state;
     put_at(ball, now, s.x);
     if (b.surface >= 0) {
         b.normal = normal;
-        add_event(now, EventKind::kLeave, ball);
+        log_.add_of_held(EventKind::kLeave, ball, now);
     }
-    note_separation(world_.contact_at(ball, surface, now), now);
-    begin_flight(ball, now, {s.v, s.w});
+    notes_.note_separation(world_.contact_at(ball, surface, now), now);
+    forms_.begin_flight(ball, now, {s.v, s.w});
+    return {};
 }
 
 /// The next piece of the ball's phase.
-void ExactRun::advance(int ball, double now) {
+HeldBalls::Handover HeldBalls::advance(int ball, double now) {
     IntegratedPhase& phase = integrated_[ball];
     if (phase.last_begin != now) phase.at_once = 0;
     phase.last_begin = now;
@@ -147,10 +171,8 @@ void ExactRun::advance(int ball, double now) {
         phase.state = piece.end_state;
         b.phase_end = now;
         if (piece.end == SingleEnd::kGivenUp || ++phase.at_once > kMostInVain)
-            step_instead(ball, now);
-        else
-            end_integrated(ball, now);
-        return;
+            return step_instead(ball, now);
+        return end_integrated(ball, now);
     }
     BallState at = world_.state(ball, now);
     at.position = phase.state.x;
@@ -159,22 +181,23 @@ void ExactRun::advance(int ball, double now) {
     phase.state = piece.end_state;
     b.leaves_at_end = false;
     b.phase_end = now + piece.seconds;
-    begin_piece(ball, now, at, piece.acceleration, piece.spin_rate, OptionalCurve(piece.curve));
+    world_.begin_piece(ball, now, at, piece.acceleration, piece.spin_rate,
+                       OptionalCurve(piece.curve));
+    return {};
 }
 
-/// The last resort where a contact cannot be integrated: ODE steps it for a while.
-void ExactRun::step_instead(int ball, double now) {
+Velocities HeldBalls::step_instead(int ball, double now) {
     IntegratedPhase& phase = integrated_[ball];
     phase.stepped_seconds = std::max(2 * phase.stepped_seconds, kFirstStepped);
     phase.stepped_until = now + phase.stepped_seconds;
     phase.at_once = 0;
-    ++report_.given_up;
+    ++log_.report.given_up;
     put_at(ball, now, phase.state.x);
-    enter_island(ball, now, {phase.state.v, phase.state.w});
+    return {phase.state.v, phase.state.w};
 }
 
 /// A piece, or the whole phase, ends.
-void ExactRun::end_integrated(int ball, double now) {
+HeldBalls::Handover HeldBalls::end_integrated(int ball, double now) {
     IntegratedPhase& phase = integrated_[ball];
     put_at(ball, now, phase.state.x);
     ExactBall& b = world_.ball(ball);
@@ -185,39 +208,51 @@ void ExactRun::end_integrated(int ball, double now) {
         case SingleEnd::kGivenUp:  // advance() has seen to that
             break;
         case SingleEnd::kLiftOff:
-            lift_off(ball, now, surface, b.normal);
-            return;
+            return lift_off(ball, now, surface, b.normal);
         case SingleEnd::kSlipEnds:
             end_slip(phase.contact, phase.state);
             [[fallthrough]];
         case SingleEnd::kFeature: {
             const Velocities velocities{phase.state.v, phase.state.w};
-            if (phase.end == SingleEnd::kFeature && go_over_seam(ball, now, velocities)) return;
+            if (phase.end == SingleEnd::kFeature)
+                if (const auto over = go_over_seam(ball, now, velocities)) return *over;
             const Contact contact = world_.contact_at(ball, surface, now);
             if (phase.end == SingleEnd::kFeature && is_plane(phase.contact))
-                begin_integrated(ball, now, contact, velocities, 0, false);
-            else
-                begin_contact(ball, now, contact, velocities, 0, false);
-            return;
+                return begin_integrated(ball, now, contact, velocities, {});
+            return begin(ball, now, contact, velocities, {});
         }
         case SingleEnd::kSlipGrows:
             phase.mode = ContactMode::kSliding;
             break;
         case SingleEnd::kGripEnds:
             phase.mode = ContactMode::kIncipient;
-            begin_flat_piece(ball, now, surface, b.normal, EventKind::kSlide, 0, false);
+            forms_.hold(ball, now, Phase::kIntegrated, surface.index, b.normal, EventKind::kSlide,
+                        {});
             break;
     }
-    advance(ball, now);
+    return advance(ball, now);
 }
 
 /// The ball is at x now; its piece follows, by the rounding that it is off.
-void ExactRun::put_at(int ball, double now, const Vec3& x) {
+void HeldBalls::put_at(int ball, double now, const Vec3& x) {
     world_.ball(ball).piece.position += x - world_.position(ball, now);
 }
 
-/// On its surface, and moving along it, to rounding: before it is met by something else.
-void ExactRun::put_on_surface(int ball, double now) {
+Contact HeldBalls::meet(int ball, const Partner& partner, double seconds, double now) {
+    ExactBall& b = world_.ball(ball);
+    put_on_surface(ball, now);
+    if (!partner.is_surface || b.phase() == Phase::kIsland || b.piece.curve)
+        return world_.contact_at(ball, partner, now);
+    const double lost = seconds - (now - b.piece.start);
+    b.piece.position += lost * world_.velocities(ball, now).linear;
+    b.piece.velocity += lost * b.piece.acceleration;
+    Contact met = world_.contact_at(ball, partner, now);
+    b.piece.position += met.depth * met.normal;
+    met.depth = 0;
+    return met;
+}
+
+void HeldBalls::put_on_surface(int ball, double now) {
     ExactBall& b = world_.ball(ball);
     if (!b.piece.curve || b.surface < 0) return;
     const Contact c = world_.contact_at(ball, {true, b.surface}, now);

@@ -1,11 +1,12 @@
-// When a ball will meet something next, or leave its cell of the grid.
+#include "sim/exact/predictor.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/nearest.h"
 #include "sim/collide/time_of_impact.h"
 #include "sim/collide/time_of_impact_high_degree.h"
-#include "sim/exact/run.h"
+#include "sim/exact/refusal.h"
 #include "sim/group/island_step.h"
 #include "sim/world/seams.h"
 
@@ -13,28 +14,8 @@ namespace carom {
 
 namespace {
 
-/// The grid is looked at again after so many events a ball.
-constexpr std::int64_t kEventsPerGrid = 16;
-
 /// An acceleration of this fraction of gravity is rounding.
 constexpr double kBalanced = 1e-11;
-
-/// It is built anew when its cells should be larger or smaller by this factor.
-constexpr double kMisfit = 1.5;
-
-/// Seconds until x + v s + a s^2 / 2 leaves (low, high), where it is now; at most `horizon`.
-double seconds_inside(double x, double v, double a, double low, double high, double horizon) {
-    if (a == 0) {
-        if (v == 0) return horizon;
-        return std::min(((v > 0 ? high : low) - x) / v, horizon);
-    }
-    for (const auto& gap :
-         {Polynomial{{x - low, v, 0.5 * a, 0, 0}}, Polynomial{{high - x, -v, -0.5 * a, 0, 0}}}) {
-        const Roots out = downward_crossings(gap, horizon);
-        if (out.count > 0) horizon = std::min(horizon, out.at[0]);
-    }
-    return horizon;
-}
 
 /// Of two partners met at the same instant the first one counts: surfaces, then balls in order.
 bool comes_first(const Partner& a, const Partner& b) {
@@ -64,113 +45,31 @@ TimeOfImpact impact_at_high_degree(const ExactBall& a, const ExactBall& b, doubl
 
 }  // namespace
 
-// ---- Predictions
-// ---------------------------------------------------------------------------------
-
-void ExactRun::predict(int ball, double now) {
+Outlook Predictor::look_ahead(int ball, double now) const {
     const ExactBall& b = world_.ball(ball);
-    if (b.in_pile && !b.asleep) return;
-    Prediction& next = next_[static_cast<std::size_t>(ball)];
-    next = {};
-    next.time = std::min(b.phase_end, b.event_due);
-    next.ball = ball;
-    next.stamp = b.stamp;
-    if (!b.in_pile) find_impacts_with_surfaces(ball, now);
-    if (world_.grid && world_.grid->in_cell(ball)) {
-        const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
-        if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
-    }
-    world_.for_each_near(ball, [&](int other) { find_impact_with_ball(ball, other, now); });
-    enqueue(ball, now);
-}
-
-/// The prediction at hand, or the end of the ball's stay in its cell if that comes before.
-void ExactRun::enqueue(int ball, double now) {
-    Prediction& next = next_[static_cast<std::size_t>(ball)];
-    next.leaves_cell = std::numeric_limits<double>::infinity();
-    if (world_.grid && world_.grid->in_cell(ball)) {
-        const Path path = world_.path(ball, now);
-        const double size = world_.grid->cell_size(), margin = world_.grid->margin();
-        const NeighbourGrid::Cell& cell = world_.grid->cell_of(ball);
-        double seconds = std::min(next.time, end_) - now;
-        const double until = seconds;
-        const Piece& piece = world_.ball(ball).piece;
-        for (int i = 0; i < 3; ++i) {
-            const auto low = static_cast<double>(cell[static_cast<std::size_t>(i)]) * size;
-            if (piece.curve) {
-                const HighDegreePath curved = high_degree_path(piece, now, std::max(seconds, 0.0));
-                seconds = seconds_above(curved, Vec3::Unit(i), low - margin);
-                seconds = std::min(seconds,
-                                   seconds_above(curved, -Vec3::Unit(i), -(low + size + margin)));
-                continue;
-            }
-            seconds = seconds_inside(path.position[i], path.velocity[i], path.acceleration[i],
-                                     low - margin, low + size + margin, seconds);
-        }
-        if (seconds < until) next.leaves_cell = now + seconds;
-    }
-    const double time = std::min(next.time, next.leaves_cell);
-    if (time <= end_)
-        queue_.put(ball, time);
-    else
-        queue_.drop(ball);
-}
-
-/// A ball has left its cell: only the cells that come into reach have to be looked at.
-void ExactRun::change_cell(int ball, double now) {
-    NeighbourGrid& grid = *world_.grid;
-    const NeighbourGrid::Cell from = grid.cell_of(ball);
-    const NeighbourGrid::Cell to = grid.cell_at(world_.position(ball, now));
-    int moved = 0, axis = 0;
-    std::int64_t side = 0;
-    for (int i = 0; i < 3; ++i) {
-        const std::int64_t step =
-            to[static_cast<std::size_t>(i)] - from[static_cast<std::size_t>(i)];
-        if (step == 0) continue;
-        ++moved;
-        axis = i;
-        side = step;
-    }
-    if (moved > 0) grid.move(ball, to);
-    const auto look = [&](int other) { find_impact_with_ball(ball, other, now); };
-    if (moved == 1 && std::abs(side) == 1)
-        world_.for_each_in_layer(ball, axis, side, look);
-    else if (moved > 0)
-        world_.for_each_near(ball, look);
-    enqueue(ball, now);
-}
-
-/// Where balls have spread or gathered, the cells follow.
-void ExactRun::fit_grid(double now) {
-    if (!world_.grid ||
-        ++events_of_grid_ < kEventsPerGrid * static_cast<std::int64_t>(world_.balls.size()))
-        return;
-    events_of_grid_ = 0;
-    Vec3 low = world_.position(0, now), high = low;
-    for (int i = 1; i < static_cast<int>(world_.balls.size()); ++i) {
-        const Vec3 x = world_.position(i, now);
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    const double ratio = world_.grid->cell_size_for(low, high) / world_.grid->cell_size();
-    if (ratio < kMisfit && ratio > 1 / kMisfit) return;
-    world_.build_grid(now);
-    for (ExactBall& b : world_.balls) b.stamp = next_stamp_++;
-    for (int i = 0; i < static_cast<int>(world_.balls.size()); ++i) predict(i, now);
+    Outlook out;
+    out.next.time = std::min(b.phase_end, b.event_due);
+    out.next.ball = ball;
+    out.next.stamp = b.stamp;
+    if (!in_pile(b.phase())) look_at_surfaces(out, now);
+    world_.for_each_near(ball, [&](int other) { look_at_ball(out, other, now); });
+    return out;
 }
 
 // ---- One partner
 // ---------------------------------------------------------------------------------
 //
 // A pair is looked at from the instant on since which both have been on their pieces, not from now:
-// so the answer does not depend on when, and how often, it is asked for.
+// so the answer does not depend on when, and how often, it is asked for. After a press nothing else
+// is looked for: it is due now.
 
 /// Planes first: they are quick to look at, and what the ball meets there shortens the look ahead.
-void ExactRun::find_impacts_with_surfaces(int ball, double now) {
+void Predictor::look_at_surfaces(Outlook& out, double now) const {
+    const int ball = out.next.ball;
     const ExactBall& b = world_.ball(ball);
-    const double& found = next_[static_cast<std::size_t>(ball)].time;
+    const double& found = out.next.time;
     for (const int plane : world_.planes)
-        if (plane != b.surface) find_impact_with_surface(ball, plane, now);
+        if (plane != b.surface) look_at_surface(out, plane, now);
     double until = std::min(found, end_);
     if (!(until > now) || world_.bounded_surfaces.empty()) return;
     Box3 ahead = bounds_of(world_.path(ball, now), 0, until - now);
@@ -183,17 +82,18 @@ void ExactRun::find_impacts_with_surfaces(int ball, double now) {
         return world_.surface_tree->is_near(surface, ahead, world_.reach(ball));
     };
     world_.for_each_surface_ahead(ball, now, until - now, [&](int surface) {
-        if (surface != b.surface && is_ahead(surface)) find_impact_with_surface(ball, surface, now);
+        if (surface != b.surface && is_ahead(surface)) look_at_surface(out, surface, now);
     });
 }
 
-void ExactRun::find_impact_with_surface(int ball, int surface, double now) {
+void Predictor::look_at_surface(Outlook& out, int surface, double now) const {
+    const int ball = out.next.ball;
     const Partner partner{true, surface};
-    const double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
+    const double until = std::min(out.next.time, end_);
     if (until <= now) return;
-    const bool stepped = has_island(world_.ball(ball));
+    const bool stepped = has_island(world_.ball(ball).phase());
     if (stepped && (links_.linked(ball, partner) || is_beside_link(ball, surface, now) ||
-                    joins_island(partner, ball, now)))
+                    joins_island(out, partner, now)))
         return;
     const double from = stepped ? now : world_.ball(ball).piece.start;
     const Path path = world_.path(ball, from);
@@ -201,7 +101,7 @@ void ExactRun::find_impact_with_surface(int ball, int surface, double now) {
     const SurfaceShape& shape = world_.surface(surface).shape;
     const Nearest nearest = nearest_on(shape, path.position, radius);
     const bool touching =
-        stepped ? in_reach(world_.contact_at(ball, partner, now))
+        stepped ? rules_.in_reach(world_.contact_at(ball, partner, now))
                 : nearest.gap <= world_.touch_tolerance(ball, partner, from, path.position,
                                                         nearest.point, radius);
     const double separation = touching ? path.velocity.dot(nearest.normal) : 0;
@@ -215,13 +115,13 @@ void ExactRun::find_impact_with_surface(int ball, int surface, double now) {
                   : impact_with_surface(path, radius, shape, touching, until - from);
     if (toi.state == ImpactState::kHit || toi.state == ImpactState::kPressed)
         toi = beside_held(ball, surface, toi, from);
-    keep_if_earlier(partner, ball, toi, touching, separation, from, now);
+    keep_if_earlier(out, toi, {partner, touching, separation, from}, now);
 }
 
 /// What is left of meeting a surface where another one holds the ball in the same place: nothing
 /// where that one keeps the ball out of it, or goes on to hold.
-TimeOfImpact ExactRun::beside_held(int ball, int surface, const TimeOfImpact& toi,
-                                   double from) const {
+TimeOfImpact Predictor::beside_held(int ball, int surface, const TimeOfImpact& toi,
+                                    double from) const {
     const double at = from + toi.s;
     const Vec3 x = world_.position(ball, at);
     const Contact met = world_.surface_contact(ball, surface, x);
@@ -245,9 +145,9 @@ TimeOfImpact ExactRun::beside_held(int ball, int surface, const TimeOfImpact& to
 }
 
 /// Whether a surface meets a ball of an island where a link to another one does.
-bool ExactRun::is_beside_link(int ball, int surface, double now) const {
+bool Predictor::is_beside_link(int ball, int surface, double now) const {
     const Contact met = world_.contact_at(ball, {true, surface}, now);
-    if (!in_reach(met)) return false;
+    if (!rules_.in_reach(met)) return false;
     const auto& links = links_.of(ball);
     return std::any_of(links.begin(), links.end(), [&](const Link& link) {
         return link.partner.is_surface &&
@@ -255,20 +155,22 @@ bool ExactRun::is_beside_link(int ball, int surface, double now) const {
     });
 }
 
-void ExactRun::find_impact_with_ball(int ball, int other, double now) {
+void Predictor::look_at_ball(Outlook& out, int other, double now) const {
+    const int ball = out.next.ball;
     const Partner partner{false, other};
     const ExactBall& a = world_.ball(ball);
     const ExactBall& b = world_.ball(other);
-    double until = std::min(next_[static_cast<std::size_t>(ball)].time, end_);
+    double until = std::min(out.next.time, end_);
     // The steps of a pile see what is near. What is sent its way between two of them is caught at
     // once, and so is what meets a sleeper.
-    const bool pile = a.in_pile || b.in_pile;
-    if (a.in_pile && b.in_pile) return;
-    if (pile && !(a.in_pile ? a : b).asleep) until = std::min(until, next_step_);
+    const bool pile = in_pile(a.phase()) || in_pile(b.phase());
+    if (in_pile(a.phase()) && in_pile(b.phase())) return;
+    if (a.phase() == Phase::kPile || b.phase() == Phase::kPile)
+        until = std::min(until, piles_.next_step());
     if (until <= now) return;
     // What ODE steps is known to the gap that makes a link.
-    const bool stepped = !pile && (has_island(a) || has_island(b));
-    if (stepped && (links_.linked(ball, partner) || joins_island(partner, ball, now))) return;
+    const bool stepped = !pile && (has_island(a.phase()) || has_island(b.phase()));
+    if (stepped && (links_.linked(ball, partner) || joins_island(out, partner, now))) return;
     const double from = stepped ? now : std::max(a.piece.start, b.piece.start);
     const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
     const Path path = path_a.relative_to(path_b);
@@ -277,8 +179,8 @@ void ExactRun::find_impact_with_ball(int ball, int other, double now) {
                                                       path_b.position, sum);
     const double distance2 = path.position.squaredNorm();
     const double closing = path.position.dot(path.velocity);
-    const bool touching =
-        stepped ? in_reach(world_.contact_at(ball, partner, now)) : distance2 <= reach * reach;
+    const bool touching = stepped ? rules_.in_reach(world_.contact_at(ball, partner, now))
+                                  : distance2 <= reach * reach;
     // The common case: both in flight, and apart.
     const bool curved = a.piece.curve || b.piece.curve;
     if (!touching && closing >= 0 && path.acceleration.isZero(0) && !curved) return;
@@ -290,12 +192,15 @@ void ExactRun::find_impact_with_ball(int ball, int other, double now) {
     if (!touching || (-separation <= still && !pile))
         toi = curved ? impact_at_high_degree(a, b, sum, touching, from)
                      : impact_with_sphere(path, sum, touching, until - from);
-    keep_if_earlier(partner, ball, toi, touching && !pile, separation, from, now);
+    keep_if_earlier(out, toi, {partner, touching && !pile, separation, from}, now);
 }
 
-/// Whether something that ODE steps is near and slow enough for a lasting contact: then the ball's
-/// island takes a step at once.
-bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
+// ---- What touches
+// --------------------------------------------------------------------------------
+
+/// Whether something that ODE steps is near and slow enough for a lasting contact.
+bool Predictor::joins_island(Outlook& out, const Partner& partner, double now) const {
+    const int ball = out.next.ball;
     if (!partner.is_surface) {  // most are far apart
         const double reach =
             (1 + kLinkGap) * (world_.ball(ball).radius + world_.ball(partner.index).radius) +
@@ -304,72 +209,65 @@ bool ExactRun::joins_island(const Partner& partner, int ball, double now) {
         if (apart.squaredNorm() > reach * reach) return false;
     }
     const Contact contact = world_.contact_at(ball, partner, now);
-    if (!stays_together(contact, now)) return false;
-    join_at_once(ball, now);
+    const ContactRules::Together together = rules_.stays_together(contact, now);
+    if (together.presses_again) out.pressed_again.push_back(contact);
+    if (!together.lasts) return false;
+    out.next.time = now;
+    out.next.kind = PredictionKind::kPresses;
     return true;
 }
 
 /// Two that have just parted, but go on to touch: rounding alone says that they press.
-bool ExactRun::rests_against(int ball, const Partner& partner, double now) {
+bool Predictor::rests_against(int ball, const Partner& partner, double now) const {
     const Contact c = world_.contact_at(ball, partner, now);
-    if (separation_of(c, now) == nullptr) return false;
+    if (notes_.separation_of(c, now) == nullptr) return false;
     Vec3 a = world_.ball(c.ball).piece.acceleration_at(now);
     if (!c.other.is_surface) a -= world_.ball(c.other.index).piece.acceleration_at(now);
     return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
 }
 
 /// A ball in flight along a surface to which gravity is parallel: only rounding presses.
-bool ExactRun::flies_along(int ball, const Partner& partner, double now) const {
+bool Predictor::flies_along(int ball, const Partner& partner, double now) const {
     const ExactBall& b = world_.ball(ball);
-    return partner.is_surface && !b.stepped && b.surface < 0 && !b.piece.curve &&
-           pressing_gravity(world_.contact_at(ball, partner, now).normal) == 0;
+    return partner.is_surface && b.phase() != Phase::kIsland && b.surface < 0 && !b.piece.curve &&
+           rules_.pressing_gravity(world_.contact_at(ball, partner, now).normal) == 0;
 }
 
 /// What touches will go on to do so.
-void ExactRun::press(int ball, const Partner& partner, double now, double event_due) {
-    const Contact contact = world_.contact_at(ball, partner, now);
-    Separation* parting = separation_of(contact, now);
-    if (parting != nullptr) parting->pressed = true;
-    note_landing(contact, now, event_due);
-    join_at_once(ball, now);
-}
-
-/// The ball is in a contact without a closed form: its island takes a step at once.
-void ExactRun::join_at_once(int ball, double now) {
-    enter_island(ball, now, world_.velocities(ball, now));
-    Prediction& next = next_[static_cast<std::size_t>(ball)];
-    next = {};
-    next.time = now;
-    next.ball = ball;
-    next.stamp = world_.ball(ball).stamp;
-}
-
-double ExactRun::gap_at(int ball, const Partner& partner, double time) const {
-    return -world_.contact_at(ball, partner, time).depth;
+void Predictor::press(Outlook& out, const Partner& partner, double now, double event_due) const {
+    const Contact contact = world_.contact_at(out.next.ball, partner, now);
+    out.pressed_again.push_back(contact);
+    out.pressing = {contact, event_due};
+    out.next.time = now;
+    out.next.kind = PredictionKind::kPresses;
 }
 
 /// Takes an impact over into the ball's prediction if it comes first.
-void ExactRun::keep_if_earlier(const Partner& partner, int ball, const TimeOfImpact& toi,
-                               bool touching, double separation, double from, double now) {
+void Predictor::keep_if_earlier(Outlook& out, const TimeOfImpact& toi, const Look& look,
+                                double now) const {
     if (toi.state == ImpactState::kMiss) return;
+    const int ball = out.next.ball;
+    const Partner& partner = look.partner;
+    const double from = look.from;
     if (toi.state == ImpactState::kPressed) {
         if (!rests_against(ball, partner, now) && !flies_along(ball, partner, now))
-            press(ball, partner, now, now);
+            press(out, partner, now, now);
         return;
     }
-    if (toi.state == ImpactState::kCapped) refuse("time of impact not found", ball, partner, now);
-    if (touching && toi.s > 0) {
+    if (toi.state == ImpactState::kCapped)
+        refuse(world_, "time of impact not found", ball, partner, now);
+    if (look.touching && toi.s > 0) {
         // On a flat surface; what a curved one falls away by, the middle of the way tells.
-        const double hop = 0.25 * toi.s * separation;
-        const double limit = hop_limit(ball, world_.position(ball, from));
+        const double hop = 0.25 * toi.s * look.separation;
+        const double limit = rules_.hop_limit(ball, world_.position(ball, from));
         const double rise =
             gap_at(ball, partner, from + 0.5 * toi.s) - std::max(gap_at(ball, partner, from), 0.0);
         if (hop < limit && rise < limit) {
             const double e = world_.contact_at(ball, partner, from).restitution;
-            return press(ball, partner, now, from + series_seconds(toi.s, e));
+            return press(out, partner, now, from + series_seconds(toi.s, e));
         }
     }
-    Prediction& next = next_[static_cast<std::size_t>(ball)];
+    Prediction& next = out.next;
     const double time = std::max(from + toi.s, now);
     if (time > next.time) return;
     if (time == next.time && next.kind == PredictionKind::kImpact &&

@@ -1,10 +1,9 @@
-// Small islands whose contacts all last: integrated, instead of stepped by ODE.
+#include "sim/phase/coupled_islands.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "sim/exact/run.h"
 #include "sim/group/island_step.h"
-#include "sim/integrate/coupled_motion.h"
 #include "sim/integrate/uniform_piece.h"
 #include "sim/law/contact_modes.h"
 #include "sim/world/energy_account.h"
@@ -23,21 +22,10 @@ constexpr double kBalanced = 1e-12;
 /// Integrated velocities leave this fraction of the speeds of a 0.
 constexpr double kRoundingSpeed = 1e-11;
 
-/// An impact with so much of the friction that sliding has has slid all the way.
-constexpr double kSlides = 1 - 1e-9;
-
-/// Where there are more balls, three that touch will soon touch others, as in a box into which they
-/// are poured: they are stepped from the beginning.
-constexpr std::size_t kFewBalls = 20;
-
 /// An island whose laws change all the time, as between balls that are being poured, is stepped for
 /// a while: so many pieces on end are shorter than a step.
 constexpr int kMostShortPieces = 60;
 constexpr double kRestlessSeconds = 0.25;
-
-EventKind kind_of(ContactMode mode) {
-    return mode == ContactMode::kRolling ? EventKind::kRoll : EventKind::kSlide;
-}
 
 /// All contacts and their modes as one number.
 std::uint64_t modes_of(const CoupledContacts& system) {
@@ -65,11 +53,10 @@ bool is_still(const CoupledContacts& system, const CoupledState& state,
 
 }  // namespace
 
-bool ExactRun::has_many_balls() const { return world_.balls.size() > kFewBalls; }
-
 /// The island as a system of its own. False if it is too large, or not together.
-bool ExactRun::coupled_system(const std::vector<int>& island, double now, CoupledIsland& is) const {
-    if (island.size() > (has_many_balls() ? 2 : kMostCoupledBalls)) return false;
+bool CoupledIslands::coupled_system(const std::vector<int>& island, double now,
+                                    CoupledIsland& is) const {
+    if (island.size() > (has_many_balls(world_) ? 2 : kMostCoupledBalls)) return false;
     if (world_.scene.simulation.gravity.isZero(0)) return false;
     CoupledContacts& system = is.system;
     system.gravity = world_.scene.simulation.gravity;
@@ -106,49 +93,10 @@ bool ExactRun::coupled_system(const std::vector<int>& island, double now, Couple
     return true;
 }
 
-/// Two that do not press any more have parted.
-void ExactRun::note_separation(const Contact& c, double now) {
-    std::erase_if(separations_, [now](const Separation& p) { return p.time < now; });
-    separations_.push_back({c.ball, c.other, now});
-    std::erase_if(landings_,
-                  [&c](const Landing& l) { return l.ball == c.ball && l.partner == c.other; });
-}
-
-void ExactRun::unlink(const Contact& c, double now) {
-    note_separation(c, now);
-    const Link* link = links_.find(c.ball, c.other);
-    if (link->stated != EventKind::kLeave || (link->from_start && link->pressed))
-        add_contact_event(c, EventKind::kLeave, now);
-    const auto forget = [this](int ball, const Partner& partner) {
-        std::erase_if(links_.of(ball), [&](const Link& l) { return l.partner == partner; });
-        world_.ball(ball).steps = std::max(world_.ball(ball).steps, 1);
-    };
-    forget(c.ball, c.other);
-    if (!c.other.is_surface) forget(c.other.index, {false, c.ball});
-}
-
-/// Whether the contact has slid all through an impact at this instant, the friction of which it
-/// gives back: that of an earlier one has had its effect, and that of one which gripped has stopped
-/// a slip that another bounce would find stopped.
-bool ExactRun::slid_in_impact(const Contact& c, double now) const {
-    const std::vector<Event>& events = motion_.events;
-    for (auto e = events.rbegin(); e != events.rend() && e->time == now; ++e)
-        if (e->kind == EventKind::kImpact && e->ball == c.ball && e->other == c.other)
-            return e->tangential_impulse >= kSlides * c.friction * e->impulse;
-    return false;
-}
-
-ExactRun::Separation* ExactRun::separation_of(const Contact& contact, double now) {
-    const auto found =
-        std::find_if(separations_.begin(), separations_.end(), [&](const Separation& p) {
-            return p.time == now && p.ball == contact.ball && p.partner == contact.other;
-        });
-    return found == separations_.end() ? nullptr : &*found;
-}
-
 /// After steps of ODE gaps are shut that a step does not see; if that lifts balls, their speeds
 /// pay.
-void ExactRun::pay_for_places(const std::vector<int>& island, double now, CoupledIsland& is) const {
+void CoupledIslands::pay_for_places(const std::vector<int>& island, double now,
+                                    CoupledIsland& is) const {
     if (std::none_of(island.begin(), island.end(),
                      [this](int ball) { return world_.ball(ball).coarse; }))
         return;
@@ -173,85 +121,99 @@ void ExactRun::pay_for_places(const std::vector<int>& island, double now, Couple
     }
 }
 
-/// The next pieces of the balls of a small island, all of the same length; or some of its contacts
-/// part now. False where it has to be stepped.
-bool ExactRun::integrate(const std::vector<int>& island, double now) {
-    CoupledIsland is;
-    if (!coupled_system(island, now, is)) return false;
-    if (island.size() == 1 && is.contacts.size() < 2) return false;
-    const CoupledForces before = coupled_forces(is.system, is.state);
-    const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
+/// Series that are over end now.
+void CoupledIslands::land_now(CoupledIsland& is, double now) const {
     std::array<bool, kMostCoupledContacts> gives_back{};
     bool lands = false;
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
-        if (landing_of(is.contacts[i], now) == nullptr) continue;
+        if (notes_.landing_of(is.contacts[i], now) == nullptr) continue;
         lands = true;
-        gives_back[i] = now == 0 || slid_in_impact(is.contacts[i], now);  // the first hop had none
+        // The first hop had none.
+        gives_back[i] = now == 0 || log_.slid_in_impact(is.contacts[i], now);
     }
     if (lands) land(is.system, gives_back, is.state);
-    if (!choose_modes(is.system, is.state)) return false;
-    pay_for_places(island, now, is);
-    bool parted = false;
-    CoupledForces forces = coupled_forces(is.system, is.state);
+}
+
+/// Contacts that do not press any more part.
+CoupledIslands::Parted CoupledIslands::part(CoupledIsland& is, const CoupledForces& before,
+                                            const CoupledForces& forces, double rounding_speed,
+                                            double now) {
+    Parted parted = Parted::kNone;
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
         if (is.system.contacts[i].presses) continue;
-        const Separation* parting = separation_of(is.contacts[i], now);
+        const Separation* parting = notes_.separation_of(is.contacts[i], now);
         // What still approaches is left to a step.
         if (before.contacts[i].speed < -rounding_speed || (parting != nullptr && parting->pressed))
-            return false;
+            return Parted::kStepInstead;
         if (is_idle(is.system, forces.contacts[i])) continue;
-        unlink(is.contacts[i], now);
-        parted = true;
+        island_links_.unlink(is.contacts[i], now);
+        parted = Parted::kSome;
     }
+    return parted;
+}
+
+CoupledIslands::Outcome CoupledIslands::integrate(const std::vector<int>& island, double now) {
+    CoupledIsland is;
+    if (!coupled_system(island, now, is)) return Outcome::kImpossible;
+    if (island.size() == 1 && is.contacts.size() < 2) return Outcome::kImpossible;
+    const CoupledForces before = coupled_forces(is.system, is.state);
+    const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
+    land_now(is, now);
+    if (!choose_modes(is.system, is.state)) return Outcome::kImpossible;
+    pay_for_places(island, now, is);
+    CoupledForces forces = coupled_forces(is.system, is.state);
+    const Parted parted = part(is, before, forces, rounding_speed, now);
+    if (parted == Parted::kStepInstead) return Outcome::kImpossible;
     CoupledPiece piece;
-    if (parted) {  // what is left of the island is due again
+    if (parted == Parted::kSome) {  // what is left of the island is due again
         begin_pieces(island, now, is, piece, rounding_speed);
-        return true;
+        return Outcome::kGoesOn;
     }
     const bool still = is_still(is.system, is.state, forces);
     if (!still) piece = piece_of(island.front(), now, is, forces);
-    if (!still && !(piece.seconds > 0)) return false;
+    if (!still && !(piece.seconds > 0)) return Outcome::kImpossible;
     begin_pieces(island, now, is, piece, rounding_speed);
     note_forces(is, forces, still, now);
-    ++report_.integrated;
+    ++log_.report.integrated;
     // A series that is over has its row at its end.
-    const double row = next_contact_event(island, now);
+    const double row = island_links_.next_contact_event(island, now);
     for (const int ball : island) {
         double& end = world_.ball(ball).phase_end;
         end = still ? row : std::min(end, row);
     }
-    if (std::isinf(row) && (still || is_at_rest(island, is, forces, now, piece.seconds)))
-        fall_asleep(island, now, 0);
-    return true;
+    const bool rests =
+        std::isinf(row) && (still || is_at_rest(island, is, forces, now, piece.seconds));
+    return rests ? Outcome::kRests : Outcome::kGoesOn;
 }
 
 /// A piece of no length is one at rest.
-void ExactRun::begin_pieces(const std::vector<int>& island, double now, const CoupledIsland& is,
-                            const CoupledPiece& piece, double rounding_speed) {
+void CoupledIslands::begin_pieces(const std::vector<int>& island, double now,
+                                  const CoupledIsland& is, const CoupledPiece& piece,
+                                  double rounding_speed) {
     for (std::size_t b = 0; b < island.size(); ++b) {
         ExactBall& ball = world_.ball(island[b]);
         BallState at = world_.state(island[b], now);
         at.position = is.state[b].x;
         at.velocity = is.state[b].v;
         at.spin = is.state[b].w;
-        ++ball.steps;
+        ++links_.member(island[b]).steps;
         ball.rounding_speed = rounding_speed;
         ball.phase_end = now + piece.seconds;
-        ball.stepped = true;
         ball.coarse = false;
-        begin_piece(island[b], now, at, piece.balls[b].acceleration, piece.balls[b].spin_rate,
-                    piece.seconds > 0 && piece.curved ? OptionalCurve(piece.balls[b].curve)
-                                                      : OptionalCurve());
+        world_.begin_piece(island[b], now, at, piece.balls[b].acceleration,
+                           piece.balls[b].spin_rate,
+                           piece.seconds > 0 && piece.curved ? OptionalCurve(piece.balls[b].curve)
+                                                             : OptionalCurve());
     }
 }
 
 /// The next piece; of no length where the island has to be stepped.
-CoupledPiece ExactRun::piece_of(int first_ball, double now, CoupledIsland& is,
-                                CoupledForces& forces) {
+CoupledPiece CoupledIslands::piece_of(int first_ball, double now, CoupledIsland& is,
+                                      CoupledForces& forces) {
     if (std::optional<CoupledPiece> steady =
             steady_piece(is.system, is.state, forces, now, end_ - now))
         return *steady;
-    PieceGuess& guess = piece_guess_[first_ball];
+    PieceGuess& guess = guesses_[first_ball];
     if (now < guess.stepped_until) return {};
     const std::uint64_t modes = modes_of(is.system);
     CoupledPiece piece =
@@ -282,8 +244,8 @@ CoupledPiece ExactRun::piece_of(int first_ball, double now, CoupledIsland& is,
 
 /// Whether the speeds and slips of the island have long been what rounding leaves, `seconds` of it
 /// ahead. Newton's first law knows no lowest speed but that.
-bool ExactRun::is_at_rest(const std::vector<int>& island, const CoupledIsland& is,
-                          const CoupledForces& forces, double now, double seconds) {
+bool CoupledIslands::is_at_rest(const std::vector<int>& island, const CoupledIsland& is,
+                                const CoupledForces& forces, double now, double seconds) {
     const double slow = kRoundingSpeed * speed_of(is.system, {});
     bool calm = std::all_of(island.begin(), island.end(), [&](int ball) {
         return world_.velocities(ball, now).linear.norm() <= slow &&
@@ -294,33 +256,32 @@ bool ExactRun::is_at_rest(const std::vector<int>& island, const CoupledIsland& i
             calm && (is.system.contacts[i].friction == 0 || forces.contacts[i].slip.norm() <= slow);
     bool long_enough = calm;
     for (const int ball : island) {
-        ExactBall& b = world_.ball(ball);
-        b.slow_steps = calm ? b.slow_steps + static_cast<int>(seconds / kIslandStep) + 1 : 0;
-        long_enough = long_enough && b.slow_steps * kIslandStep >= kStillSeconds;
+        IslandMember& m = links_.member(ball);
+        m.slow_steps = calm ? m.slow_steps + static_cast<int>(seconds / kIslandStep) + 1 : 0;
+        long_enough = long_enough && m.slow_steps * kIslandStep >= kStillSeconds;
     }
     return long_enough;
 }
 
 /// What the rows say about the contacts, whose kinds are known.
-void ExactRun::note_forces(const CoupledIsland& is, const CoupledForces& forces, bool still,
-                           double now) {
+void CoupledIslands::note_forces(const CoupledIsland& is, const CoupledForces& forces, bool still,
+                                 double now) {
     for (std::size_t i = 0; i < is.contacts.size(); ++i) {
         const Contact& contact = is.contacts[i];
         const CoupledContactForces& at = forces.contacts[i];
         const ContactMode mode = is.system.contacts[i].mode;
         const bool presses = is.system.contacts[i].presses;
-        note_push(contact, presses ? Vec3(kIslandStep * (at.push * at.normal + at.friction))
-                                   : Vec3(Vec3::Zero()));
+        island_links_.note_push(
+            contact,
+            presses ? Vec3(kIslandStep * (at.push * at.normal + at.friction)) : Vec3(Vec3::Zero()));
         for (Link& link : links_.of(contact.ball)) {
             if (link.partner != contact.other) continue;
             link.pressed = presses;
             link.slip_begins = mode == ContactMode::kIncipient;
             if (!link.pressed) continue;
             link.last = contact;
-            if (still || kind_of(mode) == link.stated || row_waits(link, now)) continue;
-            if (!link.from_start) add_contact_event(contact, kind_of(mode), now);
-            link.from_start = false;
-            link.stated = link.candidate = kind_of(mode);
+            if (still || kind_of(mode) == link.kind.stated() || row_waits(link, now)) continue;
+            if (link.kind.state(kind_of(mode))) log_.add(kind_of(mode), contact, now);
         }
     }
 }

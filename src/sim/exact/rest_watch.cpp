@@ -1,17 +1,19 @@
-// Who rests, and what the others do.
-#include <cmath>
+#include "sim/exact/rest_watch.h"
 
-#include "sim/exact/run.h"
+#include <cmath>
+#include <vector>
+
 #include "sim/record/unrest.h"
 
 namespace carom {
 
-bool ExactRun::at_rest(int ball) const {
+bool RestWatch::at_rest(int ball) const {
     const ExactBall& b = world_.ball(ball);
-    return b.asleep || (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.event_due));
+    return is_asleep(b.phase()) ||
+           (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.event_due));
 }
 
-bool ExactRun::all_at_rest() {
+bool RestWatch::all_at_rest() {
     // The ball that moved when last asked most likely still does.
     const std::size_t balls = world_.balls.size();
     for (std::size_t i = 0; i < balls; ++i) {
@@ -24,9 +26,9 @@ bool ExactRun::all_at_rest() {
 }
 
 /// What a ball does, for people.
-std::string ExactRun::doing(int ball) const {
+std::string RestWatch::doing(int ball) const {
     const ExactBall& b = world_.ball(ball);
-    if (b.in_pile) return "moves in a pile";
+    if (in_pile(b.phase())) return "moves in a pile";
     const auto on = [this](const char* verb, const Partner& partner) {
         return std::string(verb) + " on " + world_.name(partner);
     };
@@ -35,7 +37,7 @@ std::string ExactRun::doing(int ball) const {
         if (!std::isinf(b.event_due)) return on("bounces", surface);
         return on(b.kind == EventKind::kRoll ? "rolls" : "slides", surface);
     }
-    if (!b.stepped) return "flies";
+    if (b.phase() != Phase::kIsland) return "flies";
     std::string text = "moves";
     for (const Link& link : links_.of(ball))
         text += (&link == &links_.of(ball).front() ? " on " : " and ") + world_.name(link.partner);
@@ -43,15 +45,15 @@ std::string ExactRun::doing(int ball) const {
 }
 
 /// All that does not rest at the end.
-std::string ExactRun::unrest() const {
+std::string RestWatch::unrest(double end) const {
     std::vector<UnrestedBall> moving;
     for (int i = 0; i < static_cast<int>(world_.balls.size()); ++i) {
         if (at_rest(i)) continue;
-        const Velocities v = world_.velocities(i, end_);
+        const Velocities v = world_.velocities(i, end);
         moving.push_back({world_.body(i).name, doing(i), v.linear.norm(),
                           world_.ball(i).radius * v.spin.norm()});
     }
-    return unrest_text(moving, end_);
+    return unrest_text(moving, end);
 }
 
 }  // namespace carom

@@ -1,8 +1,7 @@
-// The pile's part of a run: who joins it, its steps, who leaves it or falls asleep.
+#include "sim/phase/piles.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "sim/exact/run.h"
 
 namespace carom {
 
@@ -30,28 +29,21 @@ constexpr int kStepsAlone = 4, kStepsOnSurface = 16;
 /// It leaves onto a surface from at most this depth, as a part of its radius: it is put at depth 0.
 constexpr double kDepthOfRadius = 2e-5;
 
-/// A kind of contact is stated when it has been the same for so many steps.
-constexpr int kKindSteps = 8;
-
 }  // namespace
 
 // ---- Into the pile
 // ------------------------------------------------------------------------------
 
-/// Called for each ball of an impact; one that has too many joins the pile.
-void ExactRun::note_impact(int ball, double now) {
+void Piles::note_impact(int ball, double now) {
     if (world_.scene.simulation.gravity.isZero(0) || world_.balls.size() < kManyBalls) return;
-    ExactBall& b = world_.ball(ball);
-    if (now - b.impacts_since > kImpactSeconds) {
-        b.impacts_since = now;
-        b.recent_impacts = 0;
-    }
-    if (++b.recent_impacts < kManyImpacts) return;
-    b.recent_impacts = 0;
-    if (stand_together(ball, now)) want_in_pile(ball, now);
+    RecentImpacts& recent = recent_[static_cast<std::size_t>(ball)];
+    if (now - recent.since > kImpactSeconds) recent = {now, 0};
+    if (++recent.count < kManyImpacts) return;
+    recent.count = 0;
+    if (stand_together(ball, now)) want(ball, now);
 }
 
-bool ExactRun::stand_together(int ball, double now) {
+bool Piles::stand_together(int ball, double now) const {
     std::vector<int> group = {ball};
     for (std::size_t k = 0; k < group.size() && group.size() < kManyBalls; ++k) {
         const Vec3 x = world_.position(group[k], now);
@@ -66,60 +58,44 @@ bool ExactRun::stand_together(int ball, double now) {
     return group.size() >= kManyBalls;
 }
 
-void ExactRun::want_in_pile(int ball, double now) {
+void Piles::join(int ball, double now) {
+    pile_.want(ball);
+    next_step_ = now;
+}
+
+void Piles::want(int ball, double now) {
     pile_.want(ball);
     if (next_step_ == kInfinity) next_step_ = now;
 }
 
 /// The ball's island, lasting contact and predictions end: the pile has it.
-void ExactRun::enter_pile(int ball, double now) {
-    ExactBall& b = world_.ball(ball);
-    for (const Link& link : links_.of(ball)) {
-        if (link.partner.is_surface) continue;
-        std::erase_if(links_.of(link.partner.index), [ball](const Link& back) {
-            return back.partner == Partner{false, ball};
-        });
-    }
-    links_.of(ball).clear();
+void Piles::enter(int ball, double now) {
+    links_.drop(ball);
     const BallState at = world_.state(ball, now);
-    b.surface = -1;
-    b.stepped = b.asleep = false;
-    b.in_pile = true;
-    b.phase_end = b.event_due = kInfinity;
-    begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
-}
-
-bool ExactRun::meets_pile(const Prediction& p) const {
-    return !p.partner.is_surface &&
-           (world_.ball(p.ball).in_pile || world_.ball(p.partner.index).in_pile);
+    world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
 }
 
 // ---- A step
 // ---------------------------------------------------------------------------------------
 
-void ExactRun::step_pile(double now) {
-    if (world_.grid)
-        for (const int ball : pile_.awake()) {
-            if (!world_.grid->in_cell(ball)) continue;
-            const NeighbourGrid::Cell cell = world_.grid->cell_at(world_.position(ball, now));
-            if (cell != world_.grid->cell_of(ball)) world_.grid->move(ball, cell);
-        }
+void Piles::step(double now) {
+    for (const int ball : pile_.awake()) world_.follow_cell(ball, now);
     taken_.clear();
     pile_.gather(now, links_, taken_);
-    for (const int ball : taken_) enter_pile(ball, now);
+    for (const int ball : taken_) enter(ball, now);
     pile_.solve();
-    ++report_.steps;
-    for (const int ball : pile_.awake()) move_with_pile(ball, now);
+    ++log_.report.steps;
+    for (const int ball : pile_.awake()) move(ball, now);
     for (PilePair& pair : pile_.pairs()) state_pair(pair, now);
     next_step_ = now + pile_.seconds();
+}
 
-    taken_ = pile_.awake();
-    for (const int ball : taken_) leave_pile(ball, now);
+void Piles::end_step() {
     pile_.tidy();
     if (pile_.empty()) next_step_ = kInfinity;
 }
 
-void ExactRun::move_with_pile(int ball, double now) {
+void Piles::move(int ball, double now) {
     const PileBall& c = pile_.of(ball);
     const Piece& piece = world_.ball(ball).piece;
     const Vec3& gravity = world_.scene.simulation.gravity;
@@ -131,42 +107,44 @@ void ExactRun::move_with_pile(int ball, double now) {
     const double h = pile_.seconds();
     const Vec3 a = c.pushed ? Vec3((c.after.linear - at.velocity) / h) : gravity;
     const Vec3 turn = c.pushed ? Vec3((c.after.spin - at.spin) / h) : Vec3(Vec3::Zero());
-    begin_piece(ball, now, at, a, turn);
+    world_.begin_piece(ball, now, at, a, turn);
 }
 
-/// Out of the pile, into flight or onto a surface, or to sleep.
-void ExactRun::leave_pile(int ball, double now) {
+bool Piles::leave(int ball, double now) {
     PileBall& c = pile_.of(ball);
     const Velocities velocities = c.started;
-    if (c.near <= 1 && leaves_pile_alone(ball, now, velocities)) return;
+    if (c.near <= 1 && leaves_alone(ball, now, velocities)) return true;
     const double calm = kCalmFraction * 0.5 * pile_.slow_speed(), r = world_.ball(ball).radius;
     const bool is_calm =
         c.started.linear.norm() < calm && c.after.linear.norm() < calm &&
         (r * c.after.spin.norm() < calm || r * (c.after.spin - c.started.spin).norm() < 0.1 * calm);
     c.calm_seconds = is_calm && c.pushed ? c.calm_seconds + pile_.seconds() : 0;
-    if (c.calm_seconds < kCalmSeconds) return;
+    if (c.calm_seconds < kCalmSeconds) return false;
+    lay_to_sleep(ball, now, calm);
+    return true;
+}
 
+void Piles::lay_to_sleep(int ball, double now, double calm_speed) {
+    PileBall& c = pile_.of(ball);
     ExactBall& b = world_.ball(ball);
     BallState at = world_.state(ball, now);
     at.velocity.setZero();
-    if (r * at.spin.norm() < calm) at.spin.setZero();
-    b.asleep = true;
-    begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
+    if (b.radius * at.spin.norm() < calm_speed) at.spin.setZero();
+    world_.set_phase(ball, Phase::kPileAsleep);
+    world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
     c.load = 0;
     pile_.lay_to_sleep(ball);
     for (PilePair& pair : pile_.pairs()) {
         if (pair.ball != ball && (pair.other.is_surface || pair.other.index != ball)) continue;
         c.load = std::max(c.load, pair.force);
         const int other = pair.ball == ball ? pair.other.index : pair.ball;
-        if (!(pair.force > 0) || pair.stated == EventKind::kRest) continue;
+        if (!(pair.force > 0) || pair.kind.stated() == EventKind::kRest) continue;
         if (!pair.other.is_surface && !pile_.asleep(other)) continue;
-        pair.stated = EventKind::kRest;
-        if (!pair.from_start) motion_.events.push_back(event_of(pair, EventKind::kRest, now));
+        if (pair.kind.state_rest()) log_.add(event_of(pair, EventKind::kRest, now));
     }
-    predict(ball, now);
 }
 
-bool ExactRun::leaves_pile_alone(int ball, double now, const Velocities& velocities) {
+bool Piles::leaves_alone(int ball, double now, const Velocities& velocities) {
     PileBall& c = pile_.of(ball);
     const PilePair* floor = nullptr;
     if (c.near == 1)
@@ -181,30 +159,27 @@ bool ExactRun::leaves_pile_alone(int ball, double now, const Velocities& velocit
     if (floor != nullptr) {
         contact = world_.contact_at(ball, floor->other, now);
         if (contact.depth > kDepthOfRadius * world_.ball(ball).radius) return false;
-        if (!can_hold(ball, now, contact, velocities)) return false;
+        if (!forms_.can_hold(ball, now, contact, velocities)) return false;
         if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * pile_.slow_speed())
             return false;
     }
-    pile_.release(ball);
     ExactBall& b = world_.ball(ball);
-    b.in_pile = false;
     if (floor == nullptr) {
-        begin_flight(ball, now, velocities);
+        forms_.begin_flight(ball, now, velocities);
     } else {
-        if (floor->stated != EventKind::kLeave) {
+        if (floor->kind.is_stated()) {
             b.surface = floor->other.index;
-            b.kind = floor->stated;
+            b.kind = floor->kind.stated();
         }
-        begin_flat_contact(ball, now, contact, velocities, 0, floor->from_start);
+        forms_.begin_flat_contact(ball, now, contact, velocities, {0, floor->kind.from_start()});
     }
-    predict(ball, now);
     return true;
 }
 
 // ---- Rows
 // -----------------------------------------------------------------------------------------
 
-void ExactRun::state_pair(PilePair& pair, double now) {
+void Piles::state_pair(PilePair& pair, double now) {
     if (pair.bounces && pair.impact_push > 0) {
         Event e = event_of(pair, EventKind::kImpact, now);
         e.approach_speed = pair.closing;
@@ -212,30 +187,23 @@ void ExactRun::state_pair(PilePair& pair, double now) {
         e.restitution = pair.restitution;
         e.impulse = pair.impact_push;
         e.tangential_impulse = pair.impact_tangential;
-        motion_.events.push_back(e);
-        ++report_.impacts;
+        log_.add(e);
+        ++log_.report.impacts;
     }
-    if (pair.stated != EventKind::kLeave && pair.gap > pile_.separation_gap()) {
-        pair.stated = pair.candidate = EventKind::kLeave;
-        motion_.events.push_back(event_of(pair, EventKind::kLeave, now));
+    if (pair.kind.is_stated() && pair.gap > pile_.separation_gap()) {
+        pair.kind.state_leave();
+        log_.add(event_of(pair, EventKind::kLeave, now));
     }
     if (!(pair.force > 0)) return;
-    const EventKind kind =
-        pair.slip > 0.1 * pile_.slow_speed() ? EventKind::kSlide : EventKind::kRoll;
-    if (pair.stated == EventKind::kRest && kind == EventKind::kRoll &&
+    const EventKind kind = kind_of_slip(pair.slip, 0.1 * pile_.slow_speed());
+    if (pair.kind.stated() == EventKind::kRest && kind == EventKind::kRoll &&
         pair.slip < kCalmFraction * pile_.slow_speed())
         return;
-    if (kind != pair.candidate) {
-        pair.candidate = kind;
-        pair.candidate_steps = 0;
-    }
-    if (++pair.candidate_steps < kKindSteps || kind == pair.stated) return;
-    if (!pair.from_start) motion_.events.push_back(event_of(pair, kind, now));
-    pair.from_start = false;
-    pair.stated = kind;
+    if (!pair.kind.persists(kind, now, kind_steps::kPile)) return;
+    if (pair.kind.state(kind)) log_.add(event_of(pair, kind, now));
 }
 
-Event ExactRun::event_of(const PilePair& pair, EventKind kind, double now) const {
+Event Piles::event_of(const PilePair& pair, EventKind kind, double now) const {
     Event e;
     e.time = now;
     e.ball = pair.ball;

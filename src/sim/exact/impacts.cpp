@@ -1,0 +1,85 @@
+#include "sim/exact/impacts.h"
+
+#include <algorithm>
+
+#include "sim/group/island_step.h"
+
+namespace carom {
+
+namespace {
+
+/// Impacts with a larger coefficient do not make a pile: a dense gas of balls that lose hardly
+/// anything is followed impact by impact, so that its energy is kept.
+constexpr double kMostOfPile = 0.9;
+
+}  // namespace
+
+void Impacts::begin_instant() {
+    seeds_.clear();
+    ++instant_;
+}
+
+std::size_t Impacts::connect(double now) {
+    const std::size_t met = seeds_.all().size();
+    const auto linked = [this](const Contact& c) {
+        return has_links(c.ball) || (!c.other.is_surface && has_links(c.other.index));
+    };
+    if (std::any_of(seeds_.all().begin(), seeds_.all().end(), linked))
+        for (const Contact& c : islands_.linked_contacts(seeds_.all(), now)) seeds_.add(c);
+    return met;
+}
+
+/// What hangs on a contact that is met, and when that is resolved.
+ImpactCluster::Limits Impacts::gather(const Contact& seed, double now) {
+    const bool heap = in_free_space_ && seed.restitution < 1 &&
+                      (collapse_.in_heap(seed.ball) ||
+                       (!seed.other.is_surface && collapse_.in_heap(seed.other.index)));
+    if (!heap) {
+        cluster_.gather(seed, seeds_, now);
+        return islands_.limits_of(cluster_);
+    }
+    cluster_.gather_heap(seed, seeds_, CollapseRule::kNear, now);
+    ImpactCluster::Limits limits;
+    if (cluster_.contact_count() == 1) {
+        for (const int ball : cluster_.balls()) collapse_.leave_heap(ball);
+    } else {
+        limits.slow = CollapseRule::kSlow;
+        ++log_.report.collapses;
+    }
+    return limits;
+}
+
+void Impacts::note_series(double now) {
+    for (const int ball : cluster_.balls()) {
+        double fastest = 0;
+        for (const Contact& c : impacts_)
+            if (c.ball == ball || (!c.other.is_surface && c.other.index == ball))
+                fastest = std::max(fastest, c.approach_speed);
+        if (fastest > 0) collapse_.note(ball, world_.ball(ball).radius, fastest, now);
+    }
+}
+
+bool Impacts::resolve(std::size_t i, double now) {
+    const Contact seed = seeds_.all()[i];
+    if (world_.ball(seed.ball).resolved == instant_) return false;
+    const ImpactCluster::Limits limits = gather(seed, now);
+    impacts_.clear();
+    cluster_.resolve(solver_, impacts_, limits);
+    if (in_free_space_) note_series(now);
+    const double rounding_speed =
+        std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
+    log_.add_impacts(impacts_, now);
+    for (const int ball : cluster_.balls()) {
+        world_.ball(ball).resolved = instant_;
+        world_.ball(ball).rounding_speed = rounding_speed;
+    }
+    aftermath_.settle(cluster_, impacts_, now);
+    return true;
+}
+
+bool Impacts::is_lossy() const {
+    return std::any_of(impacts_.begin(), impacts_.end(),
+                       [](const Contact& c) { return c.restitution <= kMostOfPile; });
+}
+
+}  // namespace carom

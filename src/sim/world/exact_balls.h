@@ -1,0 +1,101 @@
+// The balls of the method `exact` between two events: each has its own clock, its phase and its
+// current piece.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "motion/motion.h"
+#include "motion/motion_log.h"
+#include "scene/scene.h"
+#include "sim/collide/time_of_impact.h"
+#include "sim/contact/contact.h"
+
+namespace carom {
+
+/// What a ball is doing. ExactBalls::set_phase() alone changes it.
+enum class Phase : std::uint8_t {
+    kFlight,
+    kFlat,          ///< a flat surface holds it: its motion has a closed form
+    kIntegrated,    ///< any surface holds it, and its motion is integrated
+    kIsland,        ///< in an island (links.h) that is integrated or stepped
+    kIslandAsleep,  ///< in one that rests until something touches it
+    kPile,          ///< a member of the pile (pile.h)
+    kPileAsleep     ///< one that rests until something wakes it
+};
+inline bool has_island(Phase p) { return p == Phase::kIsland || p == Phase::kIslandAsleep; }
+inline bool in_pile(Phase p) { return p == Phase::kPile || p == Phase::kPileAsleep; }
+inline bool is_asleep(Phase p) { return p == Phase::kIslandAsleep || p == Phase::kPileAsleep; }
+
+/// A ball, from piece.start on. What its neighbours ask for stands first, in two lines of cache.
+struct alignas(64) ExactBall {
+    std::uint64_t stamp = 0;  ///< changes with every new piece: predictions know what they rest on
+    double radius = 0;        ///< m
+    /// m/s: relative speeds below this are what its last impacts left of a zero.
+    double rounding_speed = 0;
+    int surface = -1;  ///< that holds it, -1 for none
+
+    Phase phase() const { return phase_; }
+
+  private:
+    friend class ExactBalls;
+    Phase phase_ = Phase::kFlight;
+
+  public:
+    bool leaves_at_end = false;  ///< of kFlat: it ends because the face does
+    Piece piece;
+    double mass = 0;            ///< kg
+    double inertia_factor = 0;  ///< as in Ball
+    int material = 0;
+    EventKind kind = EventKind::kLeave;  ///< of the lasting contact: kSlide, kRoll or kRest
+    Vec3 normal = Vec3::UnitZ();         ///< of the lasting contact
+    double phase_end = std::numeric_limits<double>::infinity();  ///< s, when the piece must change
+    std::uint64_t resolved = 0;  ///< the last instant at which an impact of it was resolved
+    /// ODE steps its island: its gaps and speeds are known to what a step can tell.
+    bool coarse = false;
+    /// s, when the row of the lasting contact is due: at the end of its bouncing series.
+    double event_due = std::numeric_limits<double>::infinity();
+};
+
+class ExactBalls {
+  public:
+    explicit ExactBalls(const Scene& scene);
+
+    const Scene& scene;
+    std::vector<ExactBall> balls;
+    /// All pieces that balls have begun.
+    MotionLog log;
+
+    ExactBall& ball(int i) { return balls[static_cast<std::size_t>(i)]; }
+    const ExactBall& ball(int i) const { return balls[static_cast<std::size_t>(i)]; }
+    const Ball& body(int i) const { return scene.balls[static_cast<std::size_t>(i)]; }
+
+    BallState state(int i, double t) const { return ball(i).piece.at(t); }
+    /// The same without the orientation, which is what costs time.
+    Vec3 position(int i, double t) const;
+    Velocities velocities(int i, double t) const;
+    /// The path of a ball's centre from t on.
+    Path path(int i, double t) const;
+
+    /// A ball's phase changes: what belongs to the one before is forgotten.
+    void set_phase(int i, Phase phase);
+    /// What the ball does from `now` [s] on, until it begins another piece. Throws Failure(kRun)
+    /// where its state is not finite.
+    void begin_piece(int i, double now, const BallState& at, const Vec3& acceleration,
+                     const Vec3& spin_rate, OptionalCurve curve = {});
+    /// Its piece goes on, but predictions that rest on it do not hold any more.
+    void renew(int i) { ball(i).stamp = next_stamp_++; }
+
+    /// Has a ball's memory on its way when it is looked at a little later.
+    void fetch(int i) const {
+        const auto* bytes = reinterpret_cast<const char*>(&ball(i));
+        __builtin_prefetch(bytes);
+        __builtin_prefetch(bytes + 64);
+    }
+
+  private:
+    std::uint64_t next_stamp_ = 1;
+};
+
+}  // namespace carom
