@@ -127,8 +127,10 @@ void BackgroundDrawing::draw(const View& view, const Lights& lights, const Surfa
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     gl.Viewport(0, 0, view.width_px(), view.height_px());
     gl.Disable(GL_BLEND);
+    gl.Disable(GL_FRAMEBUFFER_SRGB);  // the shader encodes
     for (const auto& [bodies, rectangles] : by_bodies)
         draw_rectangles(program_for(view, table, bodies), view, lights, table, scale, rectangles);
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
     gl.check("drawing the background");
 }
 

@@ -3,7 +3,8 @@
 // View space: the eye is the origin, x to the right, y down, z forward, metres. Framebuffer row 0 is
 // the top row of the picture, so gl_FragCoord counts down like y. A ray is r(t) = start + t d with
 // d.z = 1, so that t is the depth along the view axis; start is the eye, and with ORTHOGRAPHIC the
-// pixel's own place on the plane z = 0. Colours are linear; the framebuffer encodes sRGB.
+// pixel's own place on the plane z = 0. Colours are linear; the framebuffer encodes sRGB, for the
+// background the shader.
 
 uniform vec2 u_center;    // middle of the picture, pixels
 uniform float u_pixel;    // width of a pixel on the plane z = 1, or everywhere

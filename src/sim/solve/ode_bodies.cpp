@@ -23,6 +23,10 @@ void OdeBodies::place(dWorldID world, const std::vector<ImpactBody>& bodies) {
             body.inertia = b.inertia;
         }
         dBodyEnable(body.id);
+        // ODE turns a ball's inertia with it, which rounds: an earlier step must leave no trace.
+        dMatrix3 upright;
+        dRSetIdentity(upright);
+        dBodySetRotation(body.id, upright);
         set_motion(body.id, b.position - origin, b.velocities.linear, b.velocities.spin);
     }
 }
