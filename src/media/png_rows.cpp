@@ -1,0 +1,150 @@
+#include "media/png_rows.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "core/check.h"
+#include "media/straight_alpha.h"
+
+namespace carom {
+
+namespace {
+
+/// Rows of a band. Fewer cost more bytes for tables, more are made anew more often: of Figure 9 at
+/// 1920x1080, 16, 32 and 64 rows give 1.03, 1 and 0.99 times the bytes.
+constexpr int kBandRows = 32;
+
+constexpr std::uint8_t kSub = 1;  // PNG, third edition, 9.2
+
+bool is_opaque(const std::uint8_t* bgra, std::size_t pixels) {
+    std::uint8_t all = 255;
+    for (std::size_t i = 0; i < pixels; ++i) all &= bgra[4 * i + 3];
+    return all == 255;
+}
+
+/// A row of B, G, R, (255) as R, G, B, each less the one to its left.
+void filter_opaque_row(const std::uint8_t* bgra, std::uint8_t* out, int width) {
+    out[0] = bgra[2], out[1] = bgra[1], out[2] = bgra[0];
+    for (int x = 1; x < width; ++x) {
+        const std::uint8_t* p = bgra + 4 * x;
+        std::uint8_t* o = out + 3 * x;
+        o[0] = static_cast<std::uint8_t>(p[2] - p[-2]);
+        o[1] = static_cast<std::uint8_t>(p[1] - p[-3]);
+        o[2] = static_cast<std::uint8_t>(p[0] - p[-4]);
+    }
+}
+
+/// One row of premultiplied BGRA as straight RGBA.
+void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width) {
+    for (int x = 0; x < width; ++x, bgra += 4, rgba += 4) {
+        const unsigned a = bgra[3];
+        rgba[0] = straighten(bgra[2], a);
+        rgba[1] = straighten(bgra[1], a);
+        rgba[2] = straighten(bgra[0], a);
+        rgba[3] = bgra[3];
+    }
+}
+
+void filter_row(const std::uint8_t* rgba, std::uint8_t* out, int width) {
+    for (int i = 0; i < 4; ++i) out[i] = rgba[i];
+    for (int i = 4; i < 4 * width; ++i) out[i] = static_cast<std::uint8_t>(rgba[i] - rgba[i - 4]);
+}
+
+/// zlib's deflate without head and tail, ended on a whole byte.
+std::string deflated(const std::vector<std::uint8_t>& bytes, std::size_t size) {
+    z_stream stream = {};
+    constexpr int kRaw = -15, kMemory = 9;
+    if (deflateInit2(&stream, 1, Z_DEFLATED, kRaw, kMemory, Z_RLE) != Z_OK) throw std::bad_alloc();
+    std::string out;
+    // The last bytes of a full flush are beyond what deflateBound() counts for.
+    constexpr std::size_t kFlush = 16;
+    out.resize(deflateBound(&stream, static_cast<uLong>(size)) + kFlush);
+    stream.next_in = const_cast<Bytef*>(bytes.data());
+    stream.avail_in = static_cast<uInt>(size);
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    const int result = deflate(&stream, Z_FULL_FLUSH);
+    const std::size_t written = out.size() - stream.avail_out;
+    const std::size_t left = stream.avail_in;
+    deflateEnd(&stream);
+    CAROM_CHECK(result, ==, Z_OK);
+    CAROM_CHECK(left, ==, std::size_t{0});
+    out.resize(written);
+    return out;
+}
+
+std::string big_endian(std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
+    return bytes;
+}
+
+}  // namespace
+
+void PngRows::make(Band& band, int first_row, int rows) {
+    const int width = picture_.width_px;
+    const std::size_t row_bytes = 1 + static_cast<std::size_t>(width) * (opaque_ ? 3 : 4);
+    band.filtered = row_bytes * static_cast<std::size_t>(rows);
+    filtered_.resize(band.filtered);
+    row_.resize(picture_.stride_bytes());
+    for (int y = 0; y < rows; ++y) {
+        std::uint8_t* out = filtered_.data() + static_cast<std::size_t>(y) * row_bytes;
+        *out++ = kSub;
+        if (opaque_) {
+            filter_opaque_row(picture_.row(first_row + y), out, width);
+        } else {
+            straighten_row(picture_.row(first_row + y), row_.data(), width);
+            filter_row(row_.data(), out, width);
+        }
+    }
+    band.bytes = deflated(filtered_, band.filtered);
+    band.adler = static_cast<std::uint32_t>(
+        adler32(1, filtered_.data(), static_cast<uInt>(band.filtered)));
+}
+
+const std::vector<const std::string*>& PngRows::compress(const Image& image) {
+    const bool same_size = image.width_px == picture_.width_px && image.height_px == picture_.height_px;
+    const int count = (image.height_px + kBandRows - 1) / kBandRows;
+    if (!same_size) {
+        picture_ = image;
+        bands_.assign(static_cast<std::size_t>(count), {});
+    }
+    // Which bands have changed, and whether any pixel can be seen through.
+    const auto rows_of = [&](int i) { return std::min(kBandRows, image.height_px - i * kBandRows); };
+    bool opaque = true;
+    for (int i = 0; i < count; ++i) {
+        Band& band = bands_[static_cast<std::size_t>(i)];
+        const std::size_t bytes = image.stride_bytes() * static_cast<std::size_t>(rows_of(i));
+        const std::uint8_t* rows = image.row(i * kBandRows);
+        const bool changed = same_size && std::memcmp(rows, picture_.row(i * kBandRows), bytes) != 0;
+        if (changed) std::memcpy(picture_.row(i * kBandRows), rows, bytes);
+        if (changed || !same_size) {
+            band.bytes.clear();
+            band.opaque = is_opaque(rows, bytes / 4);
+        }
+        opaque = opaque && band.opaque;
+    }
+    if (opaque != opaque_)
+        for (Band& band : bands_) band.bytes.clear();
+    opaque_ = opaque;
+
+    // Deflate with a window of 32 KiB; no dictionary, fastest (RFC 1950, 2.2).
+    head_ = "\x78\x01";
+    pieces_ = {&head_};
+    std::uint32_t adler = 1;
+    for (int i = 0; i < count; ++i) {
+        Band& band = bands_[static_cast<std::size_t>(i)];
+        if (band.bytes.empty()) make(band, i * kBandRows, rows_of(i));
+        adler = static_cast<std::uint32_t>(
+            adler32_combine(adler, band.adler, static_cast<z_off_t>(band.filtered)));
+        pieces_.push_back(&band.bytes);
+    }
+    tail_ = std::string("\x03\0", 2) + big_endian(adler);  // a last, empty block
+    pieces_.push_back(&tail_);
+    return pieces_;
+}
+
+}  // namespace carom
