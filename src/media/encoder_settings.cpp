@@ -76,18 +76,20 @@ int set_svt_av1(AVCodecContext& context, const FilmChoice& choice) {
         .result();
 }
 
-/// Constant quality: a bit rate of 0, else crf is only a bound. Invisible frames that are made of
-/// several do not go with alpha, which is a second stream frame by frame.
+/// Constant quality: a bit rate of 0, else crf is only a bound. With alpha, which is a second stream
+/// beside this one, each packet is one frame, and keyframes stand at fixed distances.
 int set_vp9(AVCodecContext& context, const FilmChoice& choice) {
     constexpr const char* kFastestGood = "5";  // above it libvpx needs its realtime mode
+    const bool alpha = pixel_format_info(choice.pixels).alpha;
     context.bit_rate = 0;
+    if (alpha) context.keyint_min = context.gop_size;
     return Setter(context)
         .number("crf", choice.level)
         .text("deadline", choice.preset > kFastestGood ? "realtime" : "good")
         .text("cpu-used", choice.preset)
         .number("row-mt", 1)
         .number("tile-columns", 2)
-        .number("auto-alt-ref", pixel_format_info(choice.pixels).alpha ? 0 : 1)
+        .number("auto-alt-ref", alpha ? 0 : 1)
         .result();
 }
 
@@ -122,7 +124,7 @@ AVPixelFormat libav_pixel_format(PixelFormat format) {
         case PixelFormat::kYuv444: return AV_PIX_FMT_YUV444P;
         case PixelFormat::kYuv420Ten: return AV_PIX_FMT_YUV420P10LE;
         case PixelFormat::kYuv444Ten: return AV_PIX_FMT_YUV444P10LE;
-        case PixelFormat::kYuva420: return AV_PIX_FMT_YUVA420P;
+        case PixelFormat::kYuva420: return AV_PIX_FMT_YUV420P;  // alpha beside: vp9_alpha.h
         case PixelFormat::kYuva444Ten: return AV_PIX_FMT_YUVA444P10LE;
         case PixelFormat::kRgb: return AV_PIX_FMT_RGB24;
         case PixelFormat::kRgba: return AV_PIX_FMT_RGBA;

@@ -48,9 +48,10 @@ void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
 std::string pipe_url(int descriptor) { return fmt::format("pipe:{}", descriptor); }
 
 FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const FilmFormat& format,
-                     const AVCodecContext& encoder, const std::string& title,
+                     const VideoEncoder& video, const std::string& title,
                      const std::string& comment)
-    : path_(path), encoder_time_base_(encoder.time_base) {
+    : path_(path), encoder_time_base_(video.context().time_base) {
+    const AVCodecContext& encoder = video.context();
     const LibavMessages messages;
     AVFormatContext* context = nullptr;
     check(libav().avformat_alloc_output_context2(&context, nullptr, format.container, url.c_str()),
@@ -71,6 +72,7 @@ FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const Film
     // Apple's players want H.265 with its parameter sets in the index alone, and this name says so.
     if (encoder.codec_id == AV_CODEC_ID_HEVC && format.times == FilmTimes::kExact)
         stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
+    if (video.alpha_beside()) stream->codecpar->format = AV_PIX_FMT_YUVA420P;
     set_text("title", title);
     set_text("comment", comment);
 

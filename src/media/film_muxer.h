@@ -6,6 +6,7 @@
 
 #include "media/film_format.h"
 #include "media/libav.h"
+#include "media/video_encoder.h"
 
 namespace carom {
 
@@ -22,7 +23,7 @@ class FilmMuxer {
     /// Writes to `url` (libav_url() or pipe_url()); `path` is for messages. `title` and `comment`
     /// may be empty. Throws Failure(kOutput).
     FilmMuxer(const std::string& url, const std::string& path, const FilmFormat& format,
-              const AVCodecContext& encoder, const std::string& title, const std::string& comment);
+              const VideoEncoder& video, const std::string& title, const std::string& comment);
     ~FilmMuxer();
     FilmMuxer(const FilmMuxer&) = delete;
     FilmMuxer& operator=(const FilmMuxer&) = delete;

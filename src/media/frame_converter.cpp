@@ -11,7 +11,8 @@ void FrameConverter::convert(const Image& image, const FramePlanes& planes) {
     const Image* source = &image;
     if (info_.alpha) {
         straight_alpha_.convert(image, straight_);
-        copy_alpha(straight_, info_.bits, planes.data[3], planes.stride[3]);
+        if (planes.data[3] != nullptr)
+            copy_alpha(straight_, info_.bits, planes.data[3], planes.stride[3]);
         source = &straight_;
     }
     if (info_.bits == 8 && info_.halved_chroma)

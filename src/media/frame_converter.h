@@ -17,7 +17,8 @@ class FrameConverter {
   public:
     explicit FrameConverter(PixelFormat format) : info_(pixel_format_info(format)) {}
 
-    /// The planes are as FFmpeg lays them out: of kPalette the second holds 256 colours 0xAARRGGBB.
+    /// The planes are as FFmpeg lays them out: of kPalette the second holds 256 colours 0xAARRGGBB;
+    /// alpha is left out where its plane is null.
     void convert(const Image& image, const FramePlanes& planes);
 
   private:

@@ -65,6 +65,7 @@ VideoEncoder::VideoEncoder(const std::string& path, const FilmChoice& choice,
         throw_libav(FailureKind::kRun, fmt::format("open the {} encoder for", choice.codec->title),
                     path_, result, messages);
     frame_ = make_frame(*context_);
+    if (choice.pixels == PixelFormat::kYuva420) alpha_.emplace(path, codec, *context_, choice);
 }
 
 int VideoEncoder::open(const FilmChoice& choice, const FilmOptions& options, int threads) {
@@ -88,7 +89,10 @@ void VideoEncoder::encode(const Image& image, const TakePacket& take) {
         planes.data[i] = frame_->data[i], planes.stride[i] = frame_->linesize[i];
     converter_.convert(image, planes);
     frame_->pts = frames_++;
-    convert_cpu_s_ += calling_thread_cpu_s() - begin;
+    const double converted = calling_thread_cpu_s();
+    convert_cpu_s_ += converted - begin;
+    if (alpha_) alpha_->encode(image);
+    caller_cpu_s_ += calling_thread_cpu_s() - converted;
     send(frame_.get());
     receive(take);
 }
@@ -118,6 +122,7 @@ void VideoEncoder::receive(const TakePacket& take) {
         if (result < 0)
             throw_libav(FailureKind::kRun, "encode a frame of", path_, result, messages);
         packet_->duration = 1;  // encoders say none, and the last frame's must not be guessed
+        if (alpha_) alpha_->attach(*packet_);
         take(*packet_);
         libav().av_packet_unref(packet_.get());
     }

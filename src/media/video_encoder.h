@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "media/film_choice.h"
 #include "media/frame_converter.h"
 #include "media/libav.h"
 #include "media/thread_clock.h"
+#include "media/vp9_alpha.h"
 
 namespace carom {
 
@@ -30,6 +32,8 @@ class VideoEncoder {
     void flush(const TakePacket& take);
 
     const AVCodecContext& context() const { return *context_; }
+    /// Packets carry their alpha beside them.
+    bool alpha_beside() const { return alpha_.has_value(); }
     std::int64_t frames() const { return frames_; }
     double convert_cpu_s() const { return convert_cpu_s_; }
     /// The caller's time in the encoder, and that of the threads that the encoder started.
@@ -45,6 +49,7 @@ class VideoEncoder {
     FramePtr frame_;
     PacketPtr packet_;
     FrameConverter converter_;
+    std::optional<Vp9Alpha> alpha_;
     std::int64_t frames_ = 0;
     double convert_cpu_s_ = 0;
     double caller_cpu_s_ = 0;

@@ -34,6 +34,18 @@ def stamps(path):
     return sorted(packet["pts"] * tick for packet in found["packets"])
 
 
+def apng_stamps(path):
+    """By the frame controls themselves: FFmpeg rounds their fractions to 1/100000 s."""
+    data, at, now, times = pathlib.Path(path).read_bytes(), 8, fractions.Fraction(0), []
+    while at < len(data):
+        size, name = struct.unpack_from(">I4s", data, at)
+        if name == b"fcTL":
+            times.append(now)
+            now += fractions.Fraction(*struct.unpack_from(">HH", data, at + 8 + 20))
+        at += 12 + size
+    return times
+
+
 def chunks(data):
     """RIFF's: four letters and content, one behind the other."""
     at = 0
