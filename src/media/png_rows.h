@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "core/image.h"
+#include "media/deflate_rows.h"
 
 namespace carom {
 
 /// Filters and compresses pictures of a film for PNG's IDAT chunks.
 ///
-/// The rows are cut into bands. Each is filtered (Sub: a pixel less the one to its left) and
-/// deflated by itself, up to a full flush, so that its bytes follow from its pixels alone: of a band
+/// The rows are cut into bands. Each is filtered (row by row Sub, a pixel less the one to its left, or Up, less
+/// the one above, whichever makes more zeros) and
+/// deflated by itself (deflate_rows.h), so that its bytes follow from its pixels alone: of a band
 /// that equals that of the picture before, they are used again. The bytes of a picture are the same
 /// whatever came before it. A band costs some 80 bytes for its own Huffman tables.
 ///
@@ -38,6 +40,7 @@ class PngRows {
     Image picture_;
     bool opaque_ = true;
     std::vector<Band> bands_;
+    RowDeflater deflater_;
     std::string head_, tail_;
     std::vector<const std::string*> pieces_;
     std::vector<std::uint8_t> filtered_, row_;
