@@ -48,8 +48,7 @@ std::string ranges_of_crf() {
     std::vector<std::string> parts;
     for (const FilmCodec& codec : film_codecs())
         if (codec.has_crf())
-            parts.push_back(
-                fmt::format("{} {}-{}", codec.title, codec.least_crf, codec.most_crf));
+            parts.push_back(fmt::format("{} {}-{}", codec.title, codec.least_crf, codec.most_crf));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -83,10 +82,10 @@ void add_encoding_options(CLI::App& command, EncodingOptions& options) {
     command
         .add_option("--quality", options.quality,
                     fmt::format("Sets both of the next two: {}; of ProRes the quantiser, of APNG "
-                                "how hard it compresses (default: medium)",
+                                "and WebP how hard they compress (default: medium)",
                                 steps_of_quality()))
-        ->check(CLI::IsMember(
-            std::vector<std::string>(quality_names().begin(), quality_names().end())))
+        ->check(
+            CLI::IsMember(std::vector<std::string>(quality_names().begin(), quality_names().end())))
         ->type_name(fmt::format("{}", fmt::join(quality_names(), "|")));
     command
         .add_option("--crf", options.crf,

@@ -153,9 +153,9 @@ void require_some_film(const std::vector<OutputRequest>& outputs, const Encoding
                                                   {"--preset", encoding.preset.has_value()}};
     for (const auto& [option, is_given] : given)
         if (is_given)
-            throw Failure(FailureKind::kInput,
-                          fmt::format("{} means nothing to PNG frames, and no output is a film",
-                                      option));
+            throw Failure(
+                FailureKind::kInput,
+                fmt::format("{} means nothing to PNG frames, and no output is a film", option));
 }
 
 void require_some_png(const std::vector<OutputRequest>& outputs, const EncodingOptions& encoding) {
@@ -204,8 +204,8 @@ PngNotes png_notes(const Scene& scene, double time_s, const std::optional<double
 std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,
                                        const EncodingOptions& encoding) {
     if (!output.is_film()) {
-        const FrameNotes notes = [film = scene.film, all = png_notes(scene, 0, encoding.dpi)](
-                                     std::int64_t number) {
+        const FrameNotes notes = [film = scene.film,
+                                  all = png_notes(scene, 0, encoding.dpi)](std::int64_t number) {
             PngNotes its_own = all;
             its_own.texts.back().second = time_text(frame_time(film, number));
             return its_own;

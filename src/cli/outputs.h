@@ -49,8 +49,8 @@ void check_outputs(const std::vector<OutputRequest>& outputs, const FrameRanges&
 /// Makes the folders that frames go to, and refuses those that cannot be written into.
 void prepare_folders(const std::vector<OutputRequest>& outputs);
 
-/// Refuses what no film can have, before simulating: an option or a transparency that its codec does
-/// not have, an odd size, a frame rate beyond the container, an encoder that is missing.
+/// Refuses what no film can have, before simulating: an option or a transparency that its codec
+/// does not have, an odd size, a frame rate beyond the container, an encoder that is missing.
 void check_films(const std::vector<OutputRequest>& outputs, const Scene& scene,
                  const EncodingOptions& encoding);
 

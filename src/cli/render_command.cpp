@@ -10,8 +10,8 @@
 #include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
-#include "cli/exit_codes.h"
 #include "cli/encoding_options.h"
+#include "cli/exit_codes.h"
 #include "cli/film_limits.h"
 #include "cli/film_plan.h"
 #include "cli/interrupt.h"
@@ -142,8 +142,7 @@ std::string plan_text(const RenderOptions& options, const Scene& scene, const Mo
     text += fmt::format("{} frames of {}x{} at {} frames/s{}\n", frames.size(), scene.film.width_px,
                         scene.film.height_px, scene.film.fps.per_second(), places);
     for (const std::string& path : options.outputs) text += fmt::format("-> {}\n", readable(path));
-    const FilmNeeds needs =
-        film_needs(requests(options), scene, options.encoding, frames.size());
+    const FilmNeeds needs = film_needs(requests(options), scene, options.encoding, frames.size());
     return text + needs_text(needs) + "\n";
 }
 

@@ -12,9 +12,9 @@ namespace carom {
 /// followed by an empty stored block that ends on a whole byte, as zlib's full flush does: such
 /// pieces can stand one behind the other, and do not refer to one another.
 ///
-/// Drawn pictures have plain areas, which are runs of one byte after a filter: so matches are sought
-/// at the distance 1 alone, as zlib's Z_RLE does in 2.4 times the time. Matches a row
-/// away make such pictures larger, for their distances and the tables cost more than they save.
+/// Drawn pictures have plain areas, which are runs of one byte after a filter: so matches are
+/// sought at the distance 1 alone, as zlib's Z_RLE does in 2.4 times the time. Matches a row away
+/// make such pictures larger, for their distances and the tables cost more than they save.
 ///
 /// Holds buffers between calls; use one object per thread.
 class RowDeflater {

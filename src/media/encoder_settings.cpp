@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/check.h"
@@ -68,16 +69,18 @@ int set_x265(AVCodecContext& context, const FilmChoice& choice) {
         .result();
 }
 
+/// "lp" bounds the threads: their number in SVT-AV1 1, and a level of at most 6 from version 2 on.
 int set_svt_av1(AVCodecContext& context, const FilmChoice& choice) {
-    return Setter(context)
-        .text("preset", choice.preset)
-        .number("crf", choice.level)
-        .text("svtav1-params", fmt::format("lp={}", context.thread_count))
-        .result();
+    constexpr int kMostLevel = 6;
+    Setter set(context);
+    set.text("preset", choice.preset).number("crf", choice.level);
+    if (context.thread_count < libav().av_cpu_count())
+        set.text("svtav1-params", fmt::format("lp={}", std::min(context.thread_count, kMostLevel)));
+    return set.result();
 }
 
-/// Constant quality: a bit rate of 0, else crf is only a bound. With alpha, which is a second stream
-/// beside this one, each packet is one frame, and keyframes stand at fixed distances.
+/// Constant quality: a bit rate of 0, else crf is only a bound. With alpha, which is a second
+/// stream beside this one, each packet is one frame, and keyframes stand at fixed distances.
 int set_vp9(AVCodecContext& context, const FilmChoice& choice) {
     constexpr const char* kFastestGood = "5";  // above it libvpx needs its realtime mode
     const bool alpha = pixel_format_info(choice.pixels).alpha;
@@ -120,17 +123,28 @@ int set_apng(AVCodecContext& context, const FilmChoice& choice) {
 
 AVPixelFormat libav_pixel_format(PixelFormat format) {
     switch (format) {
-        case PixelFormat::kYuv420: return AV_PIX_FMT_YUV420P;
-        case PixelFormat::kYuv444: return AV_PIX_FMT_YUV444P;
-        case PixelFormat::kYuv420Ten: return AV_PIX_FMT_YUV420P10LE;
-        case PixelFormat::kYuv444Ten: return AV_PIX_FMT_YUV444P10LE;
-        case PixelFormat::kYuva420: return AV_PIX_FMT_YUV420P;  // alpha beside: vp9_alpha.h
-        case PixelFormat::kYuva444Ten: return AV_PIX_FMT_YUVA444P10LE;
-        case PixelFormat::kRgb: return AV_PIX_FMT_RGB24;
-        case PixelFormat::kRgba: return AV_PIX_FMT_RGBA;
-        case PixelFormat::kBgr0: return AV_PIX_FMT_BGR0;
-        case PixelFormat::kBgra: return AV_PIX_FMT_BGRA;
-        case PixelFormat::kPalette: return AV_PIX_FMT_PAL8;
+        case PixelFormat::kYuv420:
+            return AV_PIX_FMT_YUV420P;
+        case PixelFormat::kYuv444:
+            return AV_PIX_FMT_YUV444P;
+        case PixelFormat::kYuv420Ten:
+            return AV_PIX_FMT_YUV420P10LE;
+        case PixelFormat::kYuv444Ten:
+            return AV_PIX_FMT_YUV444P10LE;
+        case PixelFormat::kYuva420:
+            return AV_PIX_FMT_YUV420P;  // alpha beside: vp9_alpha.h
+        case PixelFormat::kYuva444Ten:
+            return AV_PIX_FMT_YUVA444P10LE;
+        case PixelFormat::kRgb:
+            return AV_PIX_FMT_RGB24;
+        case PixelFormat::kRgba:
+            return AV_PIX_FMT_RGBA;
+        case PixelFormat::kBgr0:
+            return AV_PIX_FMT_BGR0;
+        case PixelFormat::kBgra:
+            return AV_PIX_FMT_BGRA;
+        case PixelFormat::kPalette:
+            return AV_PIX_FMT_PAL8;
     }
     throw Bug("a pixel format without a name of FFmpeg's");
 }

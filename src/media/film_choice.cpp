@@ -17,7 +17,8 @@ namespace {
 
 /// ", did you mean 'x'?", or nothing.
 std::string nearest(const std::string& word, std::span<const std::string_view> names) {
-    const std::string found = nearest_word(word, std::vector<std::string>(names.begin(), names.end()));
+    const std::string found =
+        nearest_word(word, std::vector<std::string>(names.begin(), names.end()));
     return found.empty() ? "" : fmt::format(", did you mean '{}'?", found);
 }
 
@@ -32,7 +33,8 @@ const FilmCodec& choose_codec(const std::string& path, const FilmFormat& format,
                            fmt::join(names, ", ")));
     }
     for (const std::string_view name : names)
-        if (!options.transparent || find_film_codec(name)->has_alpha()) return *find_film_codec(name);
+        if (!options.transparent || find_film_codec(name)->has_alpha())
+            return *find_film_codec(name);
     return *find_film_codec(names.front());
 }
 
@@ -40,10 +42,11 @@ void require_alpha(const std::string& path, const FilmCodec& codec, std::string_
     std::vector<std::string_view> with_alpha;
     for (const FilmCodec& other : film_codecs())
         if (other.has_alpha()) with_alpha.push_back(other.name);
-    refuse(fmt::format("'{}': {} has no transparency; with 'background: transparent' films end in "
-                       "{} (--codec {}), or frames go to PNGs, such as -o frames/",
-                       path, pixels.empty() ? codec.title : pixels, film_extensions(true),
-                       fmt::join(with_alpha, ", ")));
+    refuse(
+        fmt::format("'{}': {} has no transparency; with 'background: transparent' films end in "
+                    "{} (--codec {}), or frames go to PNGs, such as -o frames/",
+                    path, pixels.empty() ? codec.title : pixels, film_extensions(true),
+                    fmt::join(with_alpha, ", ")));
 }
 
 PixelFormat choose_pixels(const std::string& path, const FilmCodec& codec,
@@ -70,8 +73,7 @@ PixelFormat choose_pixels(const std::string& path, const FilmCodec& codec,
 /// Options that mean nothing to the codec.
 void require_meaning(const std::string& path, const FilmCodec& codec, const FilmOptions& options) {
     const auto none = [&](const char* option, bool given) {
-        if (given)
-            refuse(fmt::format("'{}': {} means nothing to {}", path, option, codec.title));
+        if (given) refuse(fmt::format("'{}': {} means nothing to {}", path, option, codec.title));
     };
     none("--quality", options.quality && codec.qualities.empty());
     none("--crf", options.crf && !codec.has_crf());
@@ -85,8 +87,8 @@ QualityStep quality_step(const FilmCodec& codec, const FilmOptions& options) {
     const std::string quality = options.quality.value_or("medium");
     const auto found = std::find(names.begin(), names.end(), quality);
     if (found == names.end())
-        refuse(fmt::format("unknown quality '{}'{}; there are {}", quality,
-                           nearest(quality, names), fmt::join(names, ", ")));
+        refuse(fmt::format("unknown quality '{}'{}; there are {}", quality, nearest(quality, names),
+                           fmt::join(names, ", ")));
     return codec.qualities[static_cast<std::size_t>(found - names.begin())];
 }
 
@@ -94,10 +96,10 @@ int choose_level(const FilmCodec& codec, const FilmOptions& options, int level) 
     if (!options.crf) return level;
     const int crf = *options.crf;
     if (crf >= codec.least_crf && crf <= codec.most_crf) return crf;
-    refuse(fmt::format("crf {} is not one of {}'s {} (best) ... {} (smallest){}", crf, codec.title,
-                       codec.least_crf, codec.most_crf,
-                       crf == 0 ? "; for a lossless film take .mkv with --codec ffv1, or .apng"
-                                : ""));
+    refuse(
+        fmt::format("crf {} is not one of {}'s {} (best) ... {} (smallest){}", crf, codec.title,
+                    codec.least_crf, codec.most_crf,
+                    crf == 0 ? "; for a lossless film take .mkv with --codec ffv1, or .apng" : ""));
 }
 
 std::string choose_preset(const FilmCodec& codec, const FilmOptions& options,
@@ -113,11 +115,13 @@ std::string choose_preset(const FilmCodec& codec, const FilmOptions& options,
 void require_size(const FilmChoice& choice, const FilmOptions& options) {
     const PixelFormatInfo& pixels = pixel_format_info(choice.pixels);
     const int width = options.width_px, height = options.height_px;
-    if (width < 1 || height < 1) refuse(fmt::format("a film cannot have {}x{} pixels", width, height));
+    if (width < 1 || height < 1)
+        refuse(fmt::format("a film cannot have {}x{} pixels", width, height));
     if (pixels.halved_chroma && (width % 2 != 0 || height % 2 != 0))
-        refuse(fmt::format("a film of {}x{} pixels cannot be encoded as {}: width and height must "
-                           "be even",
-                           width, height, pixels.name));
+        refuse(
+            fmt::format("a film of {}x{} pixels cannot be encoded as {}: width and height must "
+                        "be even",
+                        width, height, pixels.name));
     // The size fields of the formats themselves (GIF89a, 18; WebP container, VP8X less one).
     constexpr int kMostGif = 65535, kMostWebp = 16383;
     const int most = choice.codec->name == "webp" ? kMostWebp : kMostGif;

@@ -19,7 +19,7 @@ constexpr std::array kFfv1Pixels = {P::kBgr0, P::kBgra};
 constexpr std::array kGifPixels = {P::kPalette};
 constexpr std::array kApngPixels = {P::kRgb, P::kRgba};
 constexpr std::array kWebpPixels = {P::kBgra};
-constexpr std::array kRawPixels = {P::kRgb,    P::kRgba,      P::kBgr0,      P::kBgra,
+constexpr std::array kRawPixels = {P::kRgb,    P::kRgba,      P::kBgr0,   P::kBgra,
                                    P::kYuv420, P::kYuv420Ten, P::kYuv444, P::kYuv444Ten};
 constexpr std::array kY4mPixels = {P::kYuv420, P::kYuv444, P::kYuv420Ten, P::kYuv444Ten};
 
@@ -38,26 +38,37 @@ constexpr std::array<QualityStep, 3> kX265Quality = {
 constexpr std::array<QualityStep, 3> kVp9Quality = {QualityStep{40, "8"}, {22, "5"}, {12, "3"}};
 constexpr std::array<QualityStep, 3> kAv1Quality = {QualityStep{45, "12"}, {26, "10"}, {16, "7"}};
 constexpr std::array<QualityStep, 3> kProresQuality = {QualityStep{12, ""}, {5, ""}, {2, ""}};
+constexpr std::array<QualityStep, 3> kWebpQuality = {QualityStep{0, ""}, {1, ""}, {4, ""}};
 constexpr std::array<QualityStep, 3> kApngQuality = {QualityStep{1, ""}, {6, ""}, {9, ""}};
 
 constexpr std::array kCodecs = {
-    FilmCodec{"h264", "H.264", "libx264", kX264Pixels, 1, 51, kX264Presets, kX264Quality,
-              true, false, 0.006, 6},
-    FilmCodec{"h265", "H.265", "libx265", kX264Pixels, 1, 51, kX264Presets, kX265Quality,
-              true, false, 0.005, 25},
-    FilmCodec{"av1", "AV1", "libsvtav1", kSvtPixels, 1, 63, kAv1Presets, kAv1Quality,
-              true, false, 0.004, 20},
-    FilmCodec{"vp9", "VP9", "libvpx-vp9", kVp9Pixels, 1, 63, kVp9Presets, kVp9Quality,
-              true, false, 0.006, 60},
-    FilmCodec{"prores", "ProRes 4444", "prores_ks", kProresPixels, 0, 0, {},
-              kProresQuality, true, false, 0.5, 60},
-    FilmCodec{"ffv1", "FFV1", "ffv1", kFfv1Pixels, 0, 0, {}, {}, true, true, 0.3, 30},
-    FilmCodec{"gif", "GIF", "gif", kGifPixels, 0, 0, {}, {}, false, false, 0.05, 15},
-    FilmCodec{"apng", "APNG", "apng", kApngPixels, 0, 0, {}, kApngQuality, false, true, 0.1, 60},
-    FilmCodec{"webp", "WebP", "libwebp", kWebpPixels, 0, 0, {}, {}, false, true, 0.05, 60},
+    FilmCodec{"h264", "H.264", "libx264", kX264Pixels, 1, 51, kX264Presets, kX264Quality, true,
+              false, 0.003, 5},
+    FilmCodec{"h265", "H.265", "libx265", kX264Pixels, 1, 51, kX264Presets, kX265Quality, true,
+              false, 0.005, 24},
+    FilmCodec{"av1", "AV1", "libsvtav1", kSvtPixels, 1, 63, kAv1Presets, kAv1Quality, true, false,
+              0.004, 34},
+    FilmCodec{"vp9", "VP9", "libvpx-vp9", kVp9Pixels, 1, 63, kVp9Presets, kVp9Quality, true, false,
+              0.005, 29},
+    FilmCodec{"prores",
+              "ProRes 4444",
+              "prores_ks",
+              kProresPixels,
+              0,
+              0,
+              {},
+              kProresQuality,
+              true,
+              false,
+              0.17,
+              12},
+    FilmCodec{"ffv1", "FFV1", "ffv1", kFfv1Pixels, 0, 0, {}, {}, true, true, 0.155, 14},
+    FilmCodec{"gif", "GIF", "gif", kGifPixels, 0, 0, {}, {}, false, false, 0.03, 18},
+    FilmCodec{"apng", "APNG", "apng", kApngPixels, 0, 0, {}, kApngQuality, false, true, 0.11, 80},
+    FilmCodec{
+        "webp", "WebP", "libwebp", kWebpPixels, 0, 0, {}, kWebpQuality, false, true, 0.08, 150},
     FilmCodec{"raw", "raw video", "rawvideo", kRawPixels, 0, 0, {}, {}, false, true, 0, 1},
-    FilmCodec{"y4m", "YUV4MPEG2", "wrapped_avframe", kY4mPixels, 0, 0, {}, {}, false,
-              true, 0, 2},
+    FilmCodec{"y4m", "YUV4MPEG2", "wrapped_avframe", kY4mPixels, 0, 0, {}, {}, false, true, 0, 2},
 };
 
 }  // namespace

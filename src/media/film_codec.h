@@ -13,16 +13,16 @@ namespace carom {
 
 /// What --quality chooses.
 struct QualityStep {
-    int level;               ///< the codec's crf; of one without, a number of its own
+    int level;                ///< the codec's crf; of one without, a number of its own
     std::string_view preset;  ///< "" where the codec has none
 };
 
 struct FilmCodec {
-    std::string_view name;                 ///< of --codec
-    std::string_view title;                ///< for people: "H.264"
-    const char* encoder;                   ///< FFmpeg's
-    std::span<const PixelFormat> pixels;   ///< the first with or without alpha is the default
-    int least_crf, most_crf;               ///< best and smallest; both 0 where --crf means nothing
+    std::string_view name;                ///< of --codec
+    std::string_view title;               ///< for people: "H.264"
+    const char* encoder;                  ///< FFmpeg's
+    std::span<const PixelFormat> pixels;  ///< the first with or without alpha is the default
+    int least_crf, most_crf;              ///< best and smallest; both 0 where --crf means nothing
     std::span<const std::string_view> presets;  ///< from fast to slow; empty where there are none
     std::span<const QualityStep> qualities;     ///< draft, medium, high; empty where there is none
     bool threads;                               ///< works on several

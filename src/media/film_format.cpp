@@ -22,12 +22,17 @@ constexpr int kNoLimit = 1'000'000'000, kOneMillisecondEach = 1000, kWebp = 90, 
 
 constexpr std::array kFormats = {
     FilmFormat{"mp4", "MP4", "mp4", {"h264", "h265", "av1"}, T::kExact, kNoLimit, S::kFragments},
-    FilmFormat{"mkv", "Matroska", "matroska", {"h264", "h265", "ffv1", "vp9", "av1"},
-               T::kMilliseconds, kOneMillisecondEach, S::kAsMade},
-    FilmFormat{"mov", "QuickTime", "mov", {"prores", "h264", "h265"}, T::kExact, kNoLimit,
-               S::kFragments},
-    FilmFormat{"webm", "WebM", "webm", {"vp9", "av1"}, T::kMilliseconds, kOneMillisecondEach,
+    FilmFormat{"mkv",
+               "Matroska",
+               "matroska",
+               {"h264", "h265", "ffv1", "vp9", "av1"},
+               T::kMilliseconds,
+               kOneMillisecondEach,
                S::kAsMade},
+    FilmFormat{
+        "mov", "QuickTime", "mov", {"prores", "h264", "h265"}, T::kExact, kNoLimit, S::kFragments},
+    FilmFormat{
+        "webm", "WebM", "webm", {"vp9", "av1"}, T::kMilliseconds, kOneMillisecondEach, S::kAsMade},
     FilmFormat{"gif", "GIF", "gif", {"gif"}, T::kHundredths, kGif, S::kAtTheEnd},
     FilmFormat{"apng", "APNG", "apng", {"apng"}, T::kFraction, kNoLimit, S::kAtTheEnd},
     FilmFormat{"webp", "WebP", nullptr, {"webp"}, T::kMilliseconds, kWebp, S::kAtTheEnd},
@@ -91,18 +96,20 @@ void require_time_stamps(const FilmFormat& format, const std::string& path, int 
     };
     if (format.times == FilmTimes::kFraction &&
         (fps_numerator > kMost16Bits || fps_denominator > kMost16Bits))
-        refuse(fmt::format("{} keeps a frame's duration as a fraction of two numbers up to {}, "
-                           "which {}/{} s is not; choose another film.fps (--fps)",
-                           format.title, kMost16Bits, fps_denominator, fps_numerator));
+        refuse(
+            fmt::format("{} keeps a frame's duration as a fraction of two numbers up to {}, "
+                        "which {}/{} s is not; choose another film.fps (--fps)",
+                        format.title, kMost16Bits, fps_denominator, fps_numerator));
     if (fps <= format.most_per_s) return;
-    const char* counts = format.times == FilmTimes::kHundredths ? "hundredths of a second"
-                                                                : "milliseconds";
+    const char* counts =
+        format.times == FilmTimes::kHundredths ? "hundredths of a second" : "milliseconds";
     const char* then = format.most_per_s == kOneMillisecondEach
                            ? "several frames would have one time"
                            : "players would show each frame for a tenth of a second";
-    refuse(fmt::format("{} counts {}, and at {:.6g} frames/s {}; take at most {} (--fps {}), or "
-                       "write an .mp4",
-                       format.title, counts, fps, then, format.most_per_s, format.most_per_s));
+    refuse(
+        fmt::format("{} counts {}, and at {:.6g} frames/s {}; take at most {} (--fps {}), or "
+                    "write an .mp4",
+                    format.title, counts, fps, then, format.most_per_s, format.most_per_s));
 }
 
 }  // namespace carom

@@ -28,9 +28,9 @@ enum class FilmStreaming {
 };
 
 struct FilmFormat {
-    std::string_view extension;  ///< without its dot; also what --format calls it
-    std::string_view title;      ///< for people: "Matroska"
-    const char* container;       ///< FFmpeg's muxer; null: written by webp_film.cpp
+    std::string_view extension;              ///< without its dot; also what --format calls it
+    std::string_view title;                  ///< for people: "Matroska"
+    const char* container;                   ///< FFmpeg's muxer; null: written by webp_film.cpp
     std::array<std::string_view, 5> codecs;  ///< FilmCodec::name; the first is the default
     FilmTimes times;
     int most_per_s;  ///< frames/s: with more some would have one time, or be shown too long

@@ -29,7 +29,9 @@ constexpr std::size_t bin_of(unsigned b, unsigned g, unsigned r) {
 /// Straight colour of a pixel, 0xRRGGBB.
 std::uint32_t colour_of(const std::uint8_t* p) {
     const unsigned a = p[3];
-    if (a == 255) return p[0] | static_cast<std::uint32_t>(p[1]) << 8 | static_cast<std::uint32_t>(p[2]) << 16;
+    if (a == 255)
+        return p[0] | static_cast<std::uint32_t>(p[1]) << 8 |
+               static_cast<std::uint32_t>(p[2]) << 16;
     return straighten(p[0], a) | static_cast<std::uint32_t>(straighten(p[1], a)) << 8 |
            static_cast<std::uint32_t>(straighten(p[2], a)) << 16;
 }
@@ -116,8 +118,8 @@ double Palette::error_of(const std::vector<Shade>& shades) const {
         const Colour& c = chosen_[static_cast<std::size_t>(
             nearest(static_cast<int>(std::lround(s.b)), static_cast<int>(std::lround(s.g)),
                     static_cast<int>(std::lround(s.r))))];
-        sum += s.weight * ((s.b - c.b) * (s.b - c.b) + (s.g - c.g) * (s.g - c.g) +
-                           (s.r - c.r) * (s.r - c.r));
+        sum += s.weight *
+               ((s.b - c.b) * (s.b - c.b) + (s.g - c.g) * (s.g - c.g) + (s.r - c.r) * (s.r - c.r));
         weight += s.weight;
     }
     return weight > 0 ? sum / weight : 0;
@@ -160,15 +162,17 @@ void Palette::choose(const std::vector<Shade>& all) {
 void Palette::move_to_means(const std::vector<Shade>& shades) {
     std::vector<Shade> sums(chosen_.size(), Shade{0, 0, 0, 0});
     for (const Shade& s : shades) {
-        Shade& sum = sums[static_cast<std::size_t>(
-            nearest(static_cast<int>(std::lround(s.b)), static_cast<int>(std::lround(s.g)),
-                    static_cast<int>(std::lround(s.r))))];
+        Shade& sum = sums[static_cast<std::size_t>(nearest(static_cast<int>(std::lround(s.b)),
+                                                           static_cast<int>(std::lround(s.g)),
+                                                           static_cast<int>(std::lround(s.r))))];
         sum.b += s.weight * s.b, sum.g += s.weight * s.g, sum.r += s.weight * s.r;
         sum.weight += s.weight;
     }
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
         if (sums[i].weight <= 0) continue;
-        const auto mean = [&](double x) { return static_cast<int>(std::lround(x / sums[i].weight)); };
+        const auto mean = [&](double x) {
+            return static_cast<int>(std::lround(x / sums[i].weight));
+        };
         chosen_[i] = {mean(sums[i].b), mean(sums[i].g), mean(sums[i].r)};
     }
 }
@@ -204,8 +208,7 @@ const Palette::Pattern& Palette::pattern_of(std::uint32_t colour) {
 void Palette::convert(const Image& image, std::uint8_t* indices, std::ptrdiff_t stride,
                       std::array<std::uint32_t, 256>& colours) {
     const std::vector<Shade> shades = count(image);
-    if (!shades.empty() &&
-        (chosen_.empty() || error_of(shades) > kWorse * error_ + kWorseBy)) {
+    if (!shades.empty() && (chosen_.empty() || error_of(shades) > kWorse * error_ + kWorseBy)) {
         const std::vector<Shade> all = all_shades();
         choose(all);
         error_ = error_of(all);
@@ -215,9 +218,9 @@ void Palette::convert(const Image& image, std::uint8_t* indices, std::ptrdiff_t 
         const std::uint8_t* p = image.row(y);
         std::uint8_t* out = indices + y * stride;
         for (int x = 0; x < image.width_px; ++x, p += 4)
-            out[x] = p[3] < kOpaque ? static_cast<std::uint8_t>(kTransparent)
-                                    : pattern_of(colour_of(p))[static_cast<std::size_t>(
-                                          kBayer[y % 4][x % 4])];
+            out[x] = p[3] < kOpaque
+                         ? static_cast<std::uint8_t>(kTransparent)
+                         : pattern_of(colour_of(p))[static_cast<std::size_t>(kBayer[y % 4][x % 4])];
     }
     colours.fill(0xFF000000U);
     for (std::size_t i = 0; i < chosen_.size(); ++i)

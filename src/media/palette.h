@@ -12,11 +12,11 @@ namespace carom {
 
 /// Chooses a palette for a film as it goes, and dithers frames into it.
 ///
-/// The colours are the means of boxes that are split where their variance is largest (Wu, "Efficient
-/// statistical computations for optimal color quantization", Graphics Gems II, 1991), moved by
-/// k-means; a colour counts by the root of its pixels, so that a small ball keeps its shades beside
-/// a large sky. The palette is that of all frames so far, and stays until a frame comes that it
-/// holds markedly worse: frames of one palette are stored as differences.
+/// The colours are the means of boxes that are split where their variance is largest (Wu,
+/// "Efficient statistical computations for optimal color quantization", Graphics Gems II, 1991),
+/// moved by k-means; a colour counts by the root of its pixels, so that a small ball keeps its
+/// shades beside a large sky. The palette is that of all frames so far, and stays until a frame
+/// comes that it holds markedly worse: frames of one palette are stored as differences.
 ///
 /// Dithering is ordered, so that what does not move does not flicker: of each colour the 16 palette
 /// entries are found whose mean comes nearest to it (Knoll's pattern dithering, US patent 6606166,
@@ -61,10 +61,10 @@ class Palette {
     const Pattern& pattern_of(std::uint32_t colour);
     Pattern make_pattern(std::uint32_t colour) const;
 
-    std::vector<Bin> bins_;      ///< of all frames so far
+    std::vector<Bin> bins_;       ///< of all frames so far
     std::vector<Colour> chosen_;  ///< at most 255
-    std::vector<Known> known_;   ///< patterns by colour, the latest of those that share a place
-    double error_ = 0;           ///< mean square of what the palette was made from
+    std::vector<Known> known_;    ///< patterns by colour, the latest of those that share a place
+    double error_ = 0;            ///< mean square of what the palette was made from
 };
 
 }  // namespace carom

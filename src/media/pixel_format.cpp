@@ -35,9 +35,8 @@ const PixelFormatInfo& pixel_format_info(PixelFormat format) {
 }
 
 const PixelFormatInfo* find_pixel_format(std::string_view name) {
-    const auto found =
-        std::find_if(kFormats.begin(), kFormats.end(),
-                     [&](const PixelFormatInfo& info) { return info.name == name; });
+    const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                    [&](const PixelFormatInfo& info) { return info.name == name; });
     return found == kFormats.end() ? nullptr : &*found;
 }
 

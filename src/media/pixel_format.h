@@ -7,9 +7,9 @@
 namespace carom {
 
 enum class PixelFormat {
-    kYuv420,      ///< Y'CbCr, chroma at half width and height, 8 bits
-    kYuv444,      ///< the same with all of the chroma
-    kYuv420Ten,   ///< 10 bits
+    kYuv420,     ///< Y'CbCr, chroma at half width and height, 8 bits
+    kYuv444,     ///< the same with all of the chroma
+    kYuv420Ten,  ///< 10 bits
     kYuv444Ten,
     kYuva420,     ///< with straight alpha of 8 bits, full range
     kYuva444Ten,  ///< with straight alpha of 10 bits, full range

@@ -40,7 +40,8 @@ bool is_opaque(const std::uint8_t* bgra, std::size_t pixels) {
 
 /// A row of B, G, R, (255) as R, G, B, each less the one `back` bytes before it in memory: 4 for
 /// Sub, a row of the picture for Up. The first pixel of Sub stays as it is.
-void filter_opaque_row(const std::uint8_t* bgra, std::uint8_t* out, int width, std::ptrdiff_t back) {
+void filter_opaque_row(const std::uint8_t* bgra, std::uint8_t* out, int width,
+                       std::ptrdiff_t back) {
     const int first = back == 4 ? 1 : 0;
     if (first == 1) out[0] = bgra[2], out[1] = bgra[1], out[2] = bgra[0];
     for (int x = first; x < width; ++x) {
@@ -99,25 +100,29 @@ void PngRows::make(Band& band, int first_row, int rows) {
         }
     }
     band.bytes = deflater_.compress(filtered_, band.filtered);
-    band.adler = static_cast<std::uint32_t>(
-        adler32(1, filtered_.data(), static_cast<uInt>(band.filtered)));
+    band.adler =
+        static_cast<std::uint32_t>(adler32(1, filtered_.data(), static_cast<uInt>(band.filtered)));
 }
 
 const std::vector<const std::string*>& PngRows::compress(const Image& image) {
-    const bool same_size = image.width_px == picture_.width_px && image.height_px == picture_.height_px;
+    const bool same_size =
+        image.width_px == picture_.width_px && image.height_px == picture_.height_px;
     const int count = (image.height_px + kBandRows - 1) / kBandRows;
     if (!same_size) {
         picture_ = image;
         bands_.assign(static_cast<std::size_t>(count), {});
     }
     // Which bands have changed, and whether any pixel can be seen through.
-    const auto rows_of = [&](int i) { return std::min(kBandRows, image.height_px - i * kBandRows); };
+    const auto rows_of = [&](int i) {
+        return std::min(kBandRows, image.height_px - i * kBandRows);
+    };
     bool opaque = true;
     for (int i = 0; i < count; ++i) {
         Band& band = bands_[static_cast<std::size_t>(i)];
         const std::size_t bytes = image.stride_bytes() * static_cast<std::size_t>(rows_of(i));
         const std::uint8_t* rows = image.row(i * kBandRows);
-        const bool changed = same_size && std::memcmp(rows, picture_.row(i * kBandRows), bytes) != 0;
+        const bool changed =
+            same_size && std::memcmp(rows, picture_.row(i * kBandRows), bytes) != 0;
         if (changed) std::memcpy(picture_.row(i * kBandRows), rows, bytes);
         if (changed || !same_size) {
             band.bytes.clear();

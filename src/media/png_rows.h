@@ -12,11 +12,11 @@ namespace carom {
 
 /// Filters and compresses pictures of a film for PNG's IDAT chunks.
 ///
-/// The rows are cut into bands. Each is filtered (row by row Sub, a pixel less the one to its left, or Up, less
-/// the one above, whichever makes more zeros) and
-/// deflated by itself (deflate_rows.h), so that its bytes follow from its pixels alone: of a band
-/// that equals that of the picture before, they are used again. The bytes of a picture are the same
-/// whatever came before it. A band costs some 80 bytes for its own Huffman tables.
+/// The rows are cut into bands. Each is filtered (row by row Sub, a pixel less the one to its left,
+/// or Up, less the one above, whichever makes more zeros) and deflated by itself (deflate_rows.h),
+/// so that its bytes follow from its pixels alone: of a band that equals that of the picture
+/// before, they are used again. The bytes of a picture are the same whatever came before it. A band
+/// costs some 80 bytes for its own Huffman tables.
 ///
 /// Memory: one picture, and its compressed bytes.
 class PngRows {
@@ -30,9 +30,9 @@ class PngRows {
 
   private:
     struct Band {
-        std::string bytes;          ///< deflated; empty: not made yet
-        std::uint32_t adler = 1;    ///< checksum of the filtered bytes
-        std::size_t filtered = 0;   ///< how many these are
+        std::string bytes;         ///< deflated; empty: not made yet
+        std::uint32_t adler = 1;   ///< checksum of the filtered bytes
+        std::size_t filtered = 0;  ///< how many these are
         bool opaque = true;
     };
     void make(Band& band, int first_row, int rows);

@@ -164,7 +164,7 @@ class PngSequence final : public FrameSink {
     SinkTimes times_;
     std::int64_t written_ = 0;
     std::vector<PngEncoder> encoders_;  ///< of each worker
-    FrameWorkers workers_;  ///< last: its threads use the rest
+    FrameWorkers workers_;              ///< last: its threads use the rest
 };
 
 }  // namespace

@@ -16,7 +16,8 @@ void straighten_image(const Image& premultiplied, Image& straight) {
     for (std::size_t i = 0; i < premultiplied.bgra.size(); i += 4) {
         const unsigned a = premultiplied.bgra[i + 3];
         for (std::size_t c = i; c < i + 3; ++c)
-            straight.bgra[c] = a == 255 ? premultiplied.bgra[c] : straighten(premultiplied.bgra[c], a);
+            straight.bgra[c] =
+                a == 255 ? premultiplied.bgra[c] : straighten(premultiplied.bgra[c], a);
         straight.bgra[i + 3] = static_cast<std::uint8_t>(a);
     }
 }
@@ -83,8 +84,8 @@ void StraightAlpha::convert(const Image& premultiplied, Image& straight) {
             const Block& block = near.blocks[static_cast<std::size_t>(y / 2 * near.width + x / 2)];
             if (block.a == 0) continue;  // nothing anywhere
             const auto mean = [&](std::uint64_t sum) {
-                return static_cast<std::uint8_t>(std::min<std::uint64_t>(
-                    255, (sum * 255 + block.a / 2) / block.a));
+                return static_cast<std::uint8_t>(
+                    std::min<std::uint64_t>(255, (sum * 255 + block.a / 2) / block.a));
             };
             p[0] = mean(block.b), p[1] = mean(block.g), p[2] = mean(block.r);
         }

@@ -1,4 +1,5 @@
-// Pictures into packets, through one of FFmpeg's encoders. Only .cpp files of this folder include it.
+// Pictures into packets, through one of FFmpeg's encoders. Only .cpp files of this folder include
+// it.
 #pragma once
 
 #include <cstdint>

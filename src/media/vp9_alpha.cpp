@@ -23,12 +23,14 @@ Vp9Alpha::Vp9Alpha(const std::string& path, const AVCodec& codec, const AVCodecC
     context_->flags |= AV_CODEC_FLAG_BITEXACT;
     void* libvpx = context_->priv_data;
     const bool realtime = choice.preset > "5";
-    check(libav().av_opt_set(libvpx, "deadline", realtime ? "realtime" : "good", 0), "set up", messages);
+    check(libav().av_opt_set(libvpx, "deadline", realtime ? "realtime" : "good", 0), "set up",
+          messages);
     check(libav().av_opt_set(libvpx, "cpu-used", choice.preset.c_str(), 0), "set up", messages);
     check(libav().av_opt_set_double(libvpx, "lossless", 1, 0), "set up", messages);
     check(libav().av_opt_set_double(libvpx, "lag-in-frames", 0, 0), "set up", messages);
     check(libav().av_opt_set_double(libvpx, "row-mt", 1, 0), "set up", messages);
-    check(libav().avcodec_open2(context_.get(), nullptr, nullptr), "open the encoder for", messages);
+    check(libav().avcodec_open2(context_.get(), nullptr, nullptr), "open the encoder for",
+          messages);
 
     packet_.reset(allocated(libav().av_packet_alloc()));
     frame_.reset(allocated(libav().av_frame_alloc()));

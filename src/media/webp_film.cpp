@@ -71,9 +71,10 @@ std::string xml(const std::string& text) {
 std::string xmp(const FilmOptions& options) {
     const auto property = [](const char* name, const std::string& text) {
         return text.empty() ? ""
-                            : fmt::format("<dc:{0}><rdf:Alt><rdf:li xml:lang=\"x-default\">{1}"
-                                          "</rdf:li></rdf:Alt></dc:{0}>",
-                                          name, xml(text));
+                            : fmt::format(
+                                  "<dc:{0}><rdf:Alt><rdf:li xml:lang=\"x-default\">{1}"
+                                  "</rdf:li></rdf:Alt></dc:{0}>",
+                                  name, xml(text));
     };
     return "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
            "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"><rdf:Description "
@@ -88,6 +89,7 @@ class WebpFilm final : public FrameSink {
         : path_(path),
           options_(options),
           codec_(find_encoder(path, *choice.codec)),
+          effort_(choice.level),
           file_(path, options.existing),
           stream_(std::fopen(file_.temporary_path().c_str(), "wbe")) {
         if (!stream_) fail();
@@ -105,9 +107,8 @@ class WebpFilm final : public FrameSink {
             now_ = image;
             for (std::size_t i = 3; i < now_.bgra.size(); i += 4) now_.bgra[i] = 255;
         }
-        const Rectangle part = frames_ == 0
-                                   ? Rectangle{0, 0, image.width_px, image.height_px}
-                                   : changed_part(now_, before_);
+        const Rectangle part = frames_ == 0 ? Rectangle{0, 0, image.width_px, image.height_px}
+                                            : changed_part(now_, before_);
         const double converted = calling_thread_cpu_s();
         const std::string pixels = encode(part);
         const double encoded = calling_thread_cpu_s();
@@ -170,9 +171,12 @@ class WebpFilm final : public FrameSink {
         set_picture_format(*context, PixelFormat::kBgra, part.width, part.height);
         context->time_base = {1, 1000};
         context->flags |= AV_CODEC_FLAG_BITEXACT;
-        constexpr int kEffort = 2;  // of 0 ... 6: libwebp's "method"
-        context->compression_level = kEffort;
+        context->compression_level = effort_;
         check(libav().av_opt_set_double(context->priv_data, "lossless", 1, 0));
+        // Of a lossless picture this is effort too, in percent.
+        constexpr double kMostEffort = 6;
+        check(libav().av_opt_set_double(context->priv_data, "quality", 100 * effort_ / kMostEffort,
+                                        0));
         check(libav().avcodec_open2(context.get(), nullptr, nullptr));
         const FramePtr frame(allocated(libav().av_frame_alloc()));
         frame->width = part.width;
@@ -180,8 +184,8 @@ class WebpFilm final : public FrameSink {
         frame->format = AV_PIX_FMT_BGRA;
         if (libav().av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
         for (int y = 0; y < part.height; ++y)
-            std::memcpy(frame->data[0] + y * frame->linesize[0],
-                        now_.row(part.y + y) + 4 * part.x, static_cast<std::size_t>(part.width) * 4);
+            std::memcpy(frame->data[0] + y * frame->linesize[0], now_.row(part.y + y) + 4 * part.x,
+                        static_cast<std::size_t>(part.width) * 4);
         check(libav().avcodec_send_frame(context.get(), frame.get()));
         check(libav().avcodec_receive_packet(context.get(), packet_.get()));
         constexpr int kHead = 12;
@@ -227,6 +231,7 @@ class WebpFilm final : public FrameSink {
     std::string path_;
     FilmOptions options_;
     const AVCodec& codec_;
+    const int effort_;  ///< 0 ... 6: libwebp's "method"
     OutputFile file_;
     std::unique_ptr<std::FILE, CloseFile> stream_;
     PacketPtr packet_;

@@ -12,9 +12,7 @@ namespace {
 // BT.709 as in yuv420.cpp, with 16 binary digits: off by at most 0.02 of a step of 10 bits.
 constexpr int kBits = 16;
 
-constexpr int fixed(double x) {
-    return static_cast<int>(x * (1 << kBits) + (x < 0 ? -0.5 : 0.5));
-}
+constexpr int fixed(double x) { return static_cast<int>(x * (1 << kBits) + (x < 0 ? -0.5 : 0.5)); }
 
 /// Y' = offset + (r R + g G + b B) / 2^16 for samples of this many bits; likewise Cb and Cr.
 struct Coefficients {
@@ -47,7 +45,8 @@ void convert_luma(const Image& image, const FramePlanes& planes) {
         const std::uint8_t* p = image.row(y);
         Sample* out = samples<Sample>(planes, 0, y);
         for (int x = 0; x < image.width_px; ++x, p += 4)
-            out[x] = static_cast<Sample>((c.yr * p[2] + c.yg * p[1] + c.yb * p[0] + kOffset) >> kBits);
+            out[x] =
+                static_cast<Sample>((c.yr * p[2] + c.yg * p[1] + c.yb * p[0] + kOffset) >> kBits);
     }
 }
 

@@ -173,14 +173,14 @@ class DecodedAgain(FormatTest):
                 path = self.folder / f"q.{extension}"
                 result = run("render", self.scene, "-o", path, "-y", "--quality", quality,
                              *(["--codec", codec] if codec else []))
-                if extension in ("gif", "webp", "raw", "y4m") or codec == "ffv1":
+                if extension in ("gif", "raw", "y4m") or codec == "ffv1":
                     self.assert_exit(2, result)
                     self.assertIn("--quality means nothing to", result.stderr)
                     continue
                 self.assert_exit(0, result)
                 sizes.append(path.stat().st_size)
             print(kind, sizes)
-            if extension == "apng":  # the same pixels in fewer bytes
+            if extension in ("apng", "webp"):  # the same pixels in fewer bytes
                 self.assertGreater(sizes[0], sizes[2])
             elif sizes:
                 self.assertLess(sizes[0], sizes[2])
@@ -219,7 +219,7 @@ class Refused(FormatTest):
                 ("a.gif", ["--preset", "fast"], "--preset means nothing to GIF"),
                 ("a.gif", ["--threads", "2"], "--threads means nothing to GIF"),
                 ("a.mov", ["--crf", "20"], "--crf means nothing to ProRes 4444"),
-                ("a.webp", ["--quality", "high"], "--quality means nothing to WebP"),
+                ("a.webp", ["--crf", "20"], "--crf means nothing to WebP"),
                 ("a.mkv", ["--codec", "ffv1", "--preset", "fast"], "--preset means nothing to FFV1"),
                 ("frames/", ["--crf", "20"], "--crf means nothing to PNG frames"),
                 ("frames/", ["--codec", "h264"], "--codec means nothing to PNG frames"),
@@ -313,7 +313,7 @@ class Limits(FormatTest):
     def test_what_nobody_can_mean(self):
         for words, text in ((["--fps", "1e12"], "film.fps"),
                             (["--set", "simulation.duration=1e7"], "--chunk"),
-                            (["--set", "simulation.duration=3e5", "--size", "7680x4320"], "days")):
+                            (["--set", "simulation.duration=2e6", "--size", "7680x4320"], "days")):
             result = run("render", self.scene, "-o", self.folder / "a.mp4", *words)
             self.assertIn(result.returncode, (2, 3), result.stderr)
             self.assertIn(text, result.stderr)
