@@ -29,7 +29,7 @@ constexpr double kPngBytesPerPixel = 0.15, kPng_ns_per_px = 4;
 
 /// Pictures that the drawing holds: the framebuffer, what is read back, and the one behind it.
 constexpr double kDrawnPictures = 3;
-/// Of a film: those that wait for the encoder, and those that it holds (in bytes of our pictures).
+/// Of a film, besides what the encoder holds: those that wait for it, and the one in its pixels.
 constexpr double kFilmPictures = 4;
 /// Of PNGs, for each thread: one that waits, one in work, the one before it.
 constexpr double kPngPictures = 3;
@@ -69,7 +69,7 @@ Size size_of(const OutputRequest& output, const Scene& scene, const EncodingOpti
         return {kPngBytesPerPixel * all_pixels, kCertainPart * kPngBytesPerPixel * all_pixels};
     const FilmChoice choice = chosen_film(output, scene, encoding);
     const double bytes = film_bytes_per_pixel(choice) * all_pixels;
-    return {bytes, choice.codec->bytes_per_px == 0 ? bytes : kCertainPart * bytes};
+    return {bytes, choice.codec->cost.bytes_per_px == 0 ? bytes : kCertainPart * bytes};
 }
 
 /// The folder of an output, or the nearest one above it that is there.
@@ -158,8 +158,9 @@ FilmNeeds film_needs(const std::vector<OutputRequest>& outputs, const Scene& sce
     double pictures = kDrawnPictures, ns_per_px = kDrawing_ns_per_px;
     for (const OutputRequest& output : outputs) {
         if (output.is_film()) {
-            pictures += kFilmPictures;
-            ns_per_px += chosen_film(output, scene, encoding).codec->ns_per_px;
+            const FilmCodec& codec = *chosen_film(output, scene, encoding).codec;
+            pictures += kFilmPictures + codec.cost.pictures;
+            ns_per_px += codec.cost.ns_per_px;
         } else {
             pictures += kPngPictures * (output.path == "-" ? 1 : png_threads(encoding));
             ns_per_px += kPng_ns_per_px;

@@ -151,7 +151,7 @@ FilmChoice choose_film(const std::string& path, const FilmOptions& options) {
 }
 
 double film_bytes_per_pixel(const FilmChoice& choice) {
-    if (choice.codec->bytes_per_px > 0) return choice.codec->bytes_per_px;
+    if (choice.codec->cost.bytes_per_px > 0) return choice.codec->cost.bytes_per_px;
     const PixelFormatInfo& pixels = pixel_format_info(choice.pixels);
     const double sample_bytes = pixels.bits > 8 ? 2 : 1;
     if (!pixels.yuv) return choice.pixels == PixelFormat::kRgb ? 3 : 4;

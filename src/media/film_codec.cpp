@@ -41,35 +41,22 @@ constexpr std::array<QualityStep, 3> kProresQuality = {QualityStep{12, ""}, {5, 
 constexpr std::array<QualityStep, 3> kWebpQuality = {QualityStep{0, ""}, {1, ""}, {4, ""}};
 constexpr std::array<QualityStep, 3> kApngQuality = {QualityStep{1, ""}, {6, ""}, {9, ""}};
 
+// clang-format off
 constexpr std::array kCodecs = {
-    FilmCodec{"h264", "H.264", "libx264", kX264Pixels, 1, 51, kX264Presets, kX264Quality, true,
-              false, 0.003, 5},
-    FilmCodec{"h265", "H.265", "libx265", kX264Pixels, 1, 51, kX264Presets, kX265Quality, true,
-              false, 0.005, 24},
-    FilmCodec{"av1", "AV1", "libsvtav1", kSvtPixels, 1, 63, kAv1Presets, kAv1Quality, true, false,
-              0.004, 34},
-    FilmCodec{"vp9", "VP9", "libvpx-vp9", kVp9Pixels, 1, 63, kVp9Presets, kVp9Quality, true, false,
-              0.005, 29},
-    FilmCodec{"prores",
-              "ProRes 4444",
-              "prores_ks",
-              kProresPixels,
-              0,
-              0,
-              {},
-              kProresQuality,
-              true,
-              false,
-              0.17,
-              12},
-    FilmCodec{"ffv1", "FFV1", "ffv1", kFfv1Pixels, 0, 0, {}, {}, true, true, 0.155, 14},
-    FilmCodec{"gif", "GIF", "gif", kGifPixels, 0, 0, {}, {}, false, false, 0.03, 18},
-    FilmCodec{"apng", "APNG", "apng", kApngPixels, 0, 0, {}, kApngQuality, false, true, 0.11, 80},
-    FilmCodec{
-        "webp", "WebP", "libwebp", kWebpPixels, 0, 0, {}, kWebpQuality, false, true, 0.08, 150},
-    FilmCodec{"raw", "raw video", "rawvideo", kRawPixels, 0, 0, {}, {}, false, true, 0, 1},
-    FilmCodec{"y4m", "YUV4MPEG2", "wrapped_avframe", kY4mPixels, 0, 0, {}, {}, false, true, 0, 2},
+    //         name      title          encoder            pixels         crf    presets       quality         threads cost
+    FilmCodec{"h264",   "H.264",       "libx264",         kX264Pixels,   1, 51, kX264Presets, kX264Quality,   true,  {0.003, 5, 14}},
+    FilmCodec{"h265",   "H.265",       "libx265",         kX264Pixels,   1, 51, kX264Presets, kX265Quality,   true,  {0.005, 24, 45}},
+    FilmCodec{"av1",    "AV1",         "libsvtav1",       kSvtPixels,    1, 63, kAv1Presets,  kAv1Quality,    true,  {0.004, 34, 67}},
+    FilmCodec{"vp9",    "VP9",         "libvpx-vp9",      kVp9Pixels,    1, 63, kVp9Presets,  kVp9Quality,    true,  {0.005, 29, 34}},
+    FilmCodec{"prores", "ProRes 4444", "prores_ks",       kProresPixels, 0, 0,  {},           kProresQuality, true,  {0.17, 12, 18}},
+    FilmCodec{"ffv1",   "FFV1",        "ffv1",            kFfv1Pixels,   0, 0,  {},           {},             true,  {0.155, 14, 45}},
+    FilmCodec{"gif",    "GIF",         "gif",             kGifPixels,    0, 0,  {},           {},             false, {0.03, 18, 2}},
+    FilmCodec{"apng",   "APNG",        "apng",            kApngPixels,   0, 0,  {},           kApngQuality,   false, {0.11, 80, 5}},
+    FilmCodec{"webp",   "WebP",        "libwebp",         kWebpPixels,   0, 0,  {},           kWebpQuality,   false, {0.08, 150, 5}},
+    FilmCodec{"raw",    "raw video",   "rawvideo",        kRawPixels,    0, 0,  {},           {},             false, {0, 1, 0}},
+    FilmCodec{"y4m",    "YUV4MPEG2",   "wrapped_avframe", kY4mPixels,    0, 0,  {},           {},             false, {0, 2, 0}},
 };
+// clang-format on
 
 }  // namespace
 

@@ -17,6 +17,13 @@ struct QualityStep {
     std::string_view preset;  ///< "" where the codec has none
 };
 
+/// For estimates: Figure 9 at 1920x1080, quality medium, on two cores.
+struct CodecCost {
+    double bytes_per_px;  ///< in the file; 0: nothing is compressed
+    double ns_per_px;     ///< CPU time of converting and encoding
+    int pictures;         ///< memory of the encoder, in pictures of four bytes a pixel
+};
+
 struct FilmCodec {
     std::string_view name;                ///< of --codec
     std::string_view title;               ///< for people: "H.264"
@@ -26,9 +33,7 @@ struct FilmCodec {
     std::span<const std::string_view> presets;  ///< from fast to slow; empty where there are none
     std::span<const QualityStep> qualities;     ///< draft, medium, high; empty where there is none
     bool threads;                               ///< works on several
-    bool lossless;                              ///< of what the pixel format holds
-    double bytes_per_px;  ///< of Figure 9 at 1920x1080, quality medium; 0: without compression
-    double ns_per_px;     ///< CPU time to convert and encode that
+    CodecCost cost;
 
     bool has_crf() const { return most_crf > 0; }
     bool has_alpha() const;
