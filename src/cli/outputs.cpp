@@ -186,7 +186,8 @@ std::string origin_text(const Scene& scene) {
 
 namespace {
 
-std::string time_text(double time_s) { return fmt::format("{} s", time_s); }
+/// To nine digits: instants that agree but for rounding have one text.
+std::string time_text(double time_s) { return fmt::format("{:.9g} s", time_s); }
 
 }  // namespace
 

@@ -34,30 +34,30 @@ Symbol length_symbol(std::size_t length) {
     return {257 + 4 * bits + 4 + static_cast<int>((n >> bits) & 3), bits, n & ((1U << bits) - 1)};
 }
 
-/// Bits into bytes, the lowest first.
+/// Bits into bytes, the lowest first; there must be room for all of them and 8 bytes more.
 class BitWriter {
   public:
-    explicit BitWriter(std::string& bytes) : bytes_(bytes) {}
+    explicit BitWriter(char* bytes) : bytes_(bytes) {}
+    /// At most 32 bits.
     void put(std::uint32_t value, int bits) {
         buffer_ |= static_cast<std::uint64_t>(value) << count_;
         count_ += bits;
-        while (count_ >= 32) {
-            const auto word = static_cast<std::uint32_t>(buffer_);
-            bytes_.append(reinterpret_cast<const char*>(&word), sizeof word);
-            buffer_ >>= 32;
-            count_ -= 32;
-        }
+        std::memcpy(bytes_, &buffer_, sizeof buffer_);  // whole bytes of it count from now on
+        const int whole = count_ / 8;
+        bytes_ += whole;
+        buffer_ >>= 8 * whole;
+        count_ -= 8 * whole;
     }
-    void pad() {
-        for (; count_ > 0; count_ -= 8, buffer_ >>= 8) bytes_ += static_cast<char>(buffer_ & 255);
-        count_ = 0;
-        buffer_ = 0;
+    /// Fills the last byte with zeros; where the bytes end.
+    char* end() {
+        if (count_ > 0) put(0, 8 - count_);
+        return bytes_;
     }
 
   private:
-    std::string& bytes_;
+    char* bytes_;
     std::uint64_t buffer_ = 0;
-    int count_ = 0;
+    int count_ = 0;  ///< bits in it, less than 8 between two calls
 };
 
 static_assert(std::endian::native == std::endian::little, "words are written as they lie");
@@ -191,34 +191,71 @@ std::size_t equal_bytes(const std::uint8_t* p, const std::uint8_t* q, std::size_
     return n;
 }
 
+/// Adler-32 (RFC 1950, 8.2) of bytes that come in runs: n bytes v add n v to the first sum, and to
+/// the second n times the first one and v n (n + 1) / 2.
+class Adler {
+  public:
+    void add(std::uint64_t v, std::uint64_t n) {
+        second_ += n * first_ + v * (n * (n + 1) / 2);
+        first_ += n * v;
+        constexpr int kMostAdded = 1024;  // of at most 258 * 255: far from 2^64
+        if (++added_ == kMostAdded) reduce();
+    }
+    std::uint32_t value() {
+        reduce();
+        return static_cast<std::uint32_t>(second_ << 16 | first_);
+    }
+
+  private:
+    void reduce() {
+        constexpr std::uint64_t kBase = 65521;
+        first_ %= kBase;
+        second_ %= kBase;
+        added_ = 0;
+    }
+    std::uint64_t first_ = 1, second_ = 0;
+    int added_ = 0;
+};
+
 }  // namespace
 
-void RowDeflater::find_tokens(const std::uint8_t* bytes, std::size_t size) {
-    tokens_.clear();
-    if (size > 0) tokens_.push_back(bytes[0]);
+std::uint32_t RowDeflater::find_tokens(const std::uint8_t* bytes, std::size_t size) {
+    Adler adler;
+    if (tokens_.size() < size) tokens_.resize(size);
+    std::uint32_t* token = tokens_.data();
+    const auto literal = [&](std::uint8_t byte) {
+        *token++ = byte;
+        adler.add(byte, 1);
+    };
+    if (size > 0) literal(bytes[0]);
     for (std::size_t i = 1; i < size;) {
         std::size_t length = 0;
         if (bytes[i] == bytes[i - 1])
             length = equal_bytes(bytes + i, bytes + i - 1, std::min(kMostRun, size - i));
         if (length < kLeastRun) {
-            tokens_.push_back(bytes[i++]);
+            literal(bytes[i++]);
         } else {
-            tokens_.push_back(kRun | static_cast<std::uint32_t>(length));
+            *token++ = kRun | static_cast<std::uint32_t>(length);
+            adler.add(bytes[i], length);
             i += length;
         }
     }
+    token_count_ = static_cast<std::size_t>(token - tokens_.data());
+    return adler.value();
 }
 
-std::string RowDeflater::compress(const std::vector<std::uint8_t>& bytes, std::size_t size) {
+RowDeflater::Piece RowDeflater::compress(const std::vector<std::uint8_t>& bytes, std::size_t size) {
     CAROM_CHECK(size, <=, bytes.size());
-    find_tokens(bytes.data(), size);
+    Piece piece;
+    piece.adler = find_tokens(bytes.data(), size);
+    const std::span tokens(tokens_.data(), token_count_);
     std::array<Symbol, kMostRun + 1> lengths{};
     for (std::size_t n = kLeastRun; n <= kMostRun; ++n) lengths[n] = length_symbol(n);
 
     std::array<std::uint32_t, kLiterals> counts{};
     std::array<std::uint32_t, kDistances> runs{};
     ++counts[kEndOfBlock];
-    for (const std::uint32_t token : tokens_) {
+    for (const std::uint32_t token : tokens) {
         const bool run = (token & kRun) != 0;
         ++counts[run ? static_cast<std::size_t>(lengths[token & ~kRun].code) : token];
         if (run) ++runs[0];
@@ -226,27 +263,38 @@ std::string RowDeflater::compress(const std::vector<std::uint8_t>& bytes, std::s
     constexpr int kMostBits = 15;
     const Code literals(counts, kMostBits), distances(runs, kMostBits);
 
-    std::string result;
-    result.reserve(tokens_.size() + 1024);
-    BitWriter out(result);
+    // A run: its length's code, the length's own bits, and a bit for the distance, which is the
+    // only one; 21 bits at most.
+    struct Bits {
+        std::uint32_t value;
+        int count;
+    };
+    std::array<Bits, kMostRun + 1> run_bits{};
+    for (std::size_t n = kLeastRun; n <= kMostRun; ++n) {
+        const auto i = static_cast<std::size_t>(lengths[n].code);
+        run_bits[n] = {literals.codes[i] | lengths[n].extra << literals.lengths[i],
+                       literals.lengths[i] + lengths[n].extra_bits + 1};
+    }
+
+    constexpr std::size_t kMostTableBytes = 1024, kMostTokenBytes = 3;
+    const std::size_t room = kMostTableBytes + kMostTokenBytes * tokens.size();
+    if (room_.size() < room) room_.resize(room);
+    BitWriter out(room_.data());
     out.put(2 << 1, 3);  // not the last block; tables of its own
     put_tables(out, literals, distances);
-    for (const std::uint32_t token : tokens_) {
+    for (const std::uint32_t token : tokens) {
         if ((token & kRun) == 0) {
             out.put(literals.codes[token], literals.lengths[token]);
-            continue;
+        } else {
+            const Bits& bits = run_bits[token & ~kRun];
+            out.put(bits.value, bits.count);
         }
-        const Symbol& length = lengths[token & ~kRun];
-        const auto i = static_cast<std::size_t>(length.code);
-        out.put(literals.codes[i], literals.lengths[i]);
-        out.put(length.extra, length.extra_bits);
-        out.put(0, 1);  // distance 1, the only one: a single bit
     }
     out.put(literals.codes[kEndOfBlock], literals.lengths[kEndOfBlock]);
     out.put(0, 3);  // a stored block of no bytes: its length begins on a whole byte
-    out.pad();
-    result += std::string("\0\0\xFF\xFF", 4);
-    return result;
+    piece.bytes.assign(room_.data(), out.end());
+    piece.bytes += std::string("\0\0\xFF\xFF", 4);
+    return piece;
 }
 
 }  // namespace carom

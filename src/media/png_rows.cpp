@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "media/straight_alpha.h"
@@ -10,6 +11,8 @@
 namespace carom {
 
 namespace {
+
+static_assert(std::endian::native == std::endian::little, "pixels are read as 0xAARRGGBB");
 
 /// Rows of a band. Fewer cost more for tables, more are made anew more often; the bytes of Figure 9
 /// at 1920x1080 are the same within 0.4 % for 16, 32 and 64.
@@ -39,18 +42,20 @@ bool is_opaque(const std::uint8_t* bgra, std::size_t pixels) {
 }
 
 /// A row of B, G, R, (255) as R, G, B, each less the one `back` bytes before it in memory: 4 for
-/// Sub, a row of the picture for Up. The first pixel of Sub stays as it is.
-void filter_opaque_row(const std::uint8_t* bgra, std::uint8_t* out, int width,
-                       std::ptrdiff_t back) {
-    const int first = back == 4 ? 1 : 0;
-    if (first == 1) out[0] = bgra[2], out[1] = bgra[1], out[2] = bgra[0];
-    for (int x = first; x < width; ++x) {
-        const std::uint8_t* p = bgra + 4 * x;
-        const std::uint8_t* q = p - back;
-        std::uint8_t* o = out + 3 * x;
-        o[0] = static_cast<std::uint8_t>(p[2] - q[2]);
-        o[1] = static_cast<std::uint8_t>(p[1] - q[1]);
-        o[2] = static_cast<std::uint8_t>(p[0] - q[0]);
+/// Sub, a row of the picture for Up. The first pixel of Sub stays as it is. `difference` has room
+/// for a row of the picture, and there is a byte behind `out`.
+void filter_opaque_row(const std::uint8_t* bgra, std::uint8_t* difference, std::uint8_t* out,
+                       int width, std::ptrdiff_t back) {
+    const int first = back == 4 ? 4 : 0;
+    std::memcpy(difference, bgra, 4);
+    for (int i = first; i < 4 * width; ++i)
+        difference[i] = static_cast<std::uint8_t>(bgra[i] - bgra[i - back]);
+    // Four bytes at a time, the fourth of which the next pixel covers.
+    for (int x = 0; x < width; ++x) {
+        std::uint32_t p = 0;
+        std::memcpy(&p, difference + 4 * x, sizeof p);
+        const std::uint32_t rgb = (p >> 16 & 0xFF) | (p & 0xFF00) | (p & 0xFF) << 16;
+        std::memcpy(out + 3 * x, &rgb, sizeof rgb);
     }
 }
 
@@ -82,7 +87,7 @@ void PngRows::make(Band& band, int first_row, int rows) {
     const int width = picture_.width_px;
     const std::size_t row_bytes = 1 + static_cast<std::size_t>(width) * (opaque_ ? 3 : 4);
     band.filtered = row_bytes * static_cast<std::size_t>(rows);
-    filtered_.resize(band.filtered);
+    filtered_.resize(band.filtered + 1);
     row_.resize(picture_.stride_bytes());
     for (int y = 0; y < rows; ++y) {
         std::uint8_t* out = filtered_.data() + static_cast<std::size_t>(y) * row_bytes;
@@ -93,15 +98,13 @@ void PngRows::make(Band& band, int first_row, int rows) {
             const auto above = static_cast<std::ptrdiff_t>(picture_.stride_bytes());
             const bool up = y > 0 && goes_on_downwards(row, row - above, width);
             if (up) out[-1] = kUp;
-            filter_opaque_row(row, out, width, up ? above : 4);
+            filter_opaque_row(row, row_.data(), out, width, up ? above : 4);
         } else {
             straighten_row(row, row_.data(), width);
             filter_row(row_.data(), out, width);
         }
     }
-    band.bytes = deflater_.compress(filtered_, band.filtered);
-    band.adler =
-        static_cast<std::uint32_t>(adler32(1, filtered_.data(), static_cast<uInt>(band.filtered)));
+    band.piece = deflater_.compress(filtered_, band.filtered);
 }
 
 const std::vector<const std::string*>& PngRows::compress(const Image& image) {
@@ -125,13 +128,13 @@ const std::vector<const std::string*>& PngRows::compress(const Image& image) {
             same_size && std::memcmp(rows, picture_.row(i * kBandRows), bytes) != 0;
         if (changed) std::memcpy(picture_.row(i * kBandRows), rows, bytes);
         if (changed || !same_size) {
-            band.bytes.clear();
+            band.piece.bytes.clear();
             band.opaque = is_opaque(rows, bytes / 4);
         }
         opaque = opaque && band.opaque;
     }
     if (opaque != opaque_)
-        for (Band& band : bands_) band.bytes.clear();
+        for (Band& band : bands_) band.piece.bytes.clear();
     opaque_ = opaque;
 
     // Deflate with a window of 32 KiB; no dictionary, fastest (RFC 1950, 2.2).
@@ -140,10 +143,10 @@ const std::vector<const std::string*>& PngRows::compress(const Image& image) {
     std::uint32_t adler = 1;
     for (int i = 0; i < count; ++i) {
         Band& band = bands_[static_cast<std::size_t>(i)];
-        if (band.bytes.empty()) make(band, i * kBandRows, rows_of(i));
+        if (band.piece.bytes.empty()) make(band, i * kBandRows, rows_of(i));
         adler = static_cast<std::uint32_t>(
-            adler32_combine(adler, band.adler, static_cast<z_off_t>(band.filtered)));
-        pieces_.push_back(&band.bytes);
+            adler32_combine(adler, band.piece.adler, static_cast<z_off_t>(band.filtered)));
+        pieces_.push_back(&band.piece.bytes);
     }
     tail_ = std::string("\x03\0", 2) + big_endian(adler);  // a last, empty block
     pieces_.push_back(&tail_);

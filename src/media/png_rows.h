@@ -30,8 +30,7 @@ class PngRows {
 
   private:
     struct Band {
-        std::string bytes;         ///< deflated; empty: not made yet
-        std::uint32_t adler = 1;   ///< checksum of the filtered bytes
+        RowDeflater::Piece piece;  ///< empty: not made yet
         std::size_t filtered = 0;  ///< how many these are
         bool opaque = true;
     };

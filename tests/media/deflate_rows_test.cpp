@@ -29,7 +29,11 @@ Bytes inflated(const std::string& pieces, std::size_t size) {
     return out;
 }
 
-std::string compressed(const Bytes& bytes) { return RowDeflater().compress(bytes, bytes.size()); }
+std::string compressed(const Bytes& bytes) {
+    const RowDeflater::Piece piece = RowDeflater().compress(bytes, bytes.size());
+    EXPECT_EQ(piece.adler, adler32(1, bytes.data(), static_cast<uInt>(bytes.size())));
+    return piece.bytes;
+}
 
 TEST(RowDeflater, GivesEverythingBack) {
     std::mt19937 random(1);
@@ -79,7 +83,7 @@ TEST(RowDeflater, PiecesStandOneBehindTheOther) {
     for (int i = 0; i < 20; ++i) {
         Bytes part(static_cast<std::size_t>(100 * i), static_cast<std::uint8_t>(i));
         for (std::size_t k = 0; k < part.size(); k += 7) part[k] = static_cast<std::uint8_t>(k);
-        pieces += deflater.compress(part, part.size());
+        pieces += deflater.compress(part, part.size()).bytes;
         all.insert(all.end(), part.begin(), part.end());
     }
     EXPECT_EQ(inflated(pieces, all.size()), all);
