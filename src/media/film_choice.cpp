@@ -122,6 +122,10 @@ void require_size(const FilmChoice& choice, const FilmOptions& options) {
             fmt::format("a film of {}x{} pixels cannot be encoded as {}: width and height must "
                         "be even",
                         width, height, pixels.name));
+    constexpr int kLeastAv1 = 64;  // of SVT-AV1
+    if (choice.codec->name == "av1" && (width < kLeastAv1 || height < kLeastAv1))
+        refuse(fmt::format("AV1 has at least {0} pixels across and down, not {1}x{2}", kLeastAv1,
+                           width, height));
     // The size fields of the formats themselves (GIF89a, 18; WebP container, VP8X less one).
     constexpr int kMostGif = 65535, kMostWebp = 16383;
     const int most = choice.codec->name == "webp" ? kMostWebp : kMostGif;

@@ -13,8 +13,8 @@
 
 namespace carom {
 
-/// CPU seconds by stage, summed over all threads that work for the sink, x264's own included (found
-/// by their name, see media/thread_clock.h; without /proc they are missing).
+/// CPU seconds by stage, summed over all threads that work for the sink, the encoder's own included
+/// (found by their name, see media/thread_clock.h; without /proc they are missing).
 struct SinkTimes {
     double convert_cpu_s = 0;
     double encode_cpu_s = 0;

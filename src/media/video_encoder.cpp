@@ -121,6 +121,10 @@ void VideoEncoder::receive(const TakePacket& take) {
         if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
         if (result < 0)
             throw_libav(FailureKind::kRun, "encode a frame of", path_, result, messages);
+        // Of films of one or two frames x265 3.5 gives decoding times that are none.
+        constexpr int kMostReordered = 16;
+        if (packet_->dts < -kMostReordered) packet_->dts = packets_;
+        ++packets_;
         packet_->duration = 1;  // encoders say none, and the last frame's must not be guessed
         if (alpha_) alpha_->attach(*packet_);
         take(*packet_);

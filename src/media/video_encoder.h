@@ -52,6 +52,7 @@ class VideoEncoder {
     FrameConverter converter_;
     std::optional<Vp9Alpha> alpha_;
     std::int64_t frames_ = 0;
+    std::int64_t packets_ = 0;
     double convert_cpu_s_ = 0;
     double caller_cpu_s_ = 0;
     ForeignThreads encoder_threads_;

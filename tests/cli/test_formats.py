@@ -136,6 +136,15 @@ class DecodedAgain(FormatTest):
                         exact = [fractions.Fraction(int(1000 * t + fractions.Fraction(1, 2)), 1000) for t in exact]
                     self.assertEqual(exact, times)
 
+    def test_one_frame_and_two_are_films(self):
+        for kind, (extension, codec, *_) in CODECS.items():
+            for frames in (1, 2):
+                with self.subTest(kind=kind, frames=frames):
+                    path = self.folder / f"short.{extension}"
+                    self.assert_exit(0, run("render", self.scene, "-o", path, "-y", "--frames", f"0-{frames - 1}",
+                                            *(["--codec", codec] if codec else [])))
+                    self.assertEqual(frames * WIDTH * HEIGHT * 4, len(self.samples(kind, path)))
+
     def test_a_gif_rounds_its_times_once(self):
         path, _ = self.film("gif", "--fps", "30")
         self.assertEqual([fractions.Fraction(int(100 * k / 30 + 0.5), 100) for k in range(FRAMES)], reading.stamps(path))
@@ -235,6 +244,7 @@ class Refused(FormatTest):
                 ("a.mp4", ["--preset", "veryfats"], "did you mean 'veryfast'?"),
                 ("a.webm", ["--crf", "64"], "crf 64 is not one of VP9's 1 (best) ... 63"),
                 ("a.mp4", ["--crf", "52"], "crf 52 is not one of H.264's 1 (best) ... 51"),
+                ("a.mp4", ["--codec", "av1", "--size", "62x64"], "AV1 has at least 64 pixels"),
                 ("a.mp4", ["--crf", "0"], "ffv1")):
             self.assertIn(text, self.refused(name, *words))
 
