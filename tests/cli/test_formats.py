@@ -145,6 +145,12 @@ class DecodedAgain(FormatTest):
                                             *(["--codec", codec] if codec else [])))
                     self.assertEqual(frames * WIDTH * HEIGHT * 4, len(self.samples(kind, path)))
 
+    def test_two_runs_give_the_same_bytes(self):
+        for kind in CODECS:
+            with self.subTest(kind=kind):
+                one, _ = self.film(kind)
+                self.assertEqual(one.read_bytes(), self.film(kind, stem="again")[0].read_bytes())
+
     def test_a_gif_rounds_its_times_once(self):
         path, _ = self.film("gif", "--fps", "30")
         self.assertEqual([fractions.Fraction(int(100 * k / 30 + 0.5), 100) for k in range(FRAMES)], reading.stamps(path))

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "media/film_choice.h"
+#include "media/video_encoder.h"
 #include "media_fixture.h"
 
 namespace carom {
@@ -101,6 +102,14 @@ TEST(FilmFormats, RatesAtTheLimit) {
     EXPECT_TRUE(holds("a.apng", 65535, 1));
     EXPECT_FALSE(holds("a.apng", 65536, 1));
     EXPECT_TRUE(holds("a.mp4", 90000, 1));
+}
+
+TEST(FilmFormats, AnEncoderThatIsMissingIsNamed) {
+    FilmCodec codec = *find_film_codec("vp9");
+    codec.encoder = "libvpx-vp10";
+    const std::string text =
+        failure_text(FailureKind::kRun, [&] { find_encoder("a.webm", codec); });
+    EXPECT_EQ(text, "cannot encode 'a.webm': this FFmpeg has no libvpx-vp10, which encodes VP9");
 }
 
 TEST(FilmFormats, BytesOfAPixelWithoutCompression) {
