@@ -86,6 +86,7 @@ int exit_code_of_exception() {
 int run_program(int argc, char** argv) {
     let_writing_fail();
     share_the_heap_where_it_is_limited();
+    quiet_libraries();
     const Interrupt interrupt;
 
     CLI::App app("Physically exact films of bouncing balls, from a text file, with no display.",

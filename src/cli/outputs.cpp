@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <map>
+#include <utility>
 
 #include "cli/standard_output.h"
 #include "core/failure.h"
@@ -13,6 +13,7 @@
 #include "media/output_file.h"
 #include "media/output_folder.h"
 #include "media/threaded_sink.h"
+#include "scene/film_clock.h"
 
 namespace carom {
 
@@ -21,17 +22,6 @@ namespace {
 /// Frames that may wait between drawing and encoding: the encoder has a queue of its own, more
 /// would only cost memory.
 constexpr int kWaitingFrames = 1;
-
-struct Quality {
-    int crf;
-    const char* preset;
-};
-
-Quality quality_named(const std::string& name) {
-    static const std::map<std::string, Quality> kQualities = {
-        {"draft", {28, "ultrafast"}}, {"medium", {18, "veryfast"}}, {"high", {12, "medium"}}};
-    return kQualities.at(name);
-}
 
 /// Whose extension says the format.
 std::string name_of(const OutputRequest& output) {
@@ -131,47 +121,99 @@ void prepare_folders(const std::vector<OutputRequest>& outputs) {
                 std::filesystem::path(sequence_path(output.path, 0)).parent_path().string());
 }
 
-void check_transparency(const std::vector<OutputRequest>& outputs, const Scene& scene) {
-    if (scene.background != Background::kTransparent) return;
-    for (const OutputRequest& output : outputs)
-        if (output.is_film() && !film_format(name_of(output)).alpha)
-            throw Failure(FailureKind::kInput,
-                          fmt::format("-o {}: H.264 has no transparency; with 'background: "
-                                      "transparent' frames go to PNGs, such as -o frames/ or "
-                                      "-o frame_%05d.png",
-                                      output.path));
-}
-
 namespace {
 
 FilmOptions film_options(const Scene& scene, const EncodingOptions& encoding) {
-    const Quality quality = quality_named(encoding.quality);
     FilmOptions film;
     film.width_px = scene.film.width_px;
     film.height_px = scene.film.height_px;
     film.fps_numerator = scene.film.fps.numerator;
     film.fps_denominator = scene.film.fps.denominator;
-    film.crf = encoding.crf >= 0 ? encoding.crf : quality.crf;
-    film.preset = encoding.preset.empty() ? quality.preset : encoding.preset;
+    film.transparent = scene.background == Background::kTransparent;
+    film.codec = encoding.codec.value_or("");
+    film.pixels = encoding.pixels.value_or("");
+    film.quality = encoding.quality;
+    film.crf = encoding.crf;
+    film.preset = encoding.preset;
     film.threads = encoding.threads;
     film.title = scene.title;
+    film.comment = origin_text(scene);
     film.existing = encoding.existing;
     return film;
+}
+
+/// PNGs have pixels as they are drawn, and nothing to choose.
+void require_some_film(const std::vector<OutputRequest>& outputs, const EncodingOptions& encoding) {
+    if (std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return o.is_film(); }))
+        return;
+    const std::pair<const char*, bool> given[] = {{"--codec", encoding.codec.has_value()},
+                                                  {"--pix-fmt", encoding.pixels.has_value()},
+                                                  {"--quality", encoding.quality.has_value()},
+                                                  {"--crf", encoding.crf.has_value()},
+                                                  {"--preset", encoding.preset.has_value()}};
+    for (const auto& [option, is_given] : given)
+        if (is_given)
+            throw Failure(
+                FailureKind::kInput,
+                fmt::format("{} means nothing to PNG frames, and no output is a film", option));
+}
+
+void require_some_png(const std::vector<OutputRequest>& outputs, const EncodingOptions& encoding) {
+    if (!encoding.dpi) return;
+    if (std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return !o.is_film(); }))
+        return;
+    throw Failure(FailureKind::kInput, "--dpi is for PNG frames, and all outputs are films");
 }
 
 }  // namespace
 
 void check_films(const std::vector<OutputRequest>& outputs, const Scene& scene,
                  const EncodingOptions& encoding) {
+    require_some_film(outputs, encoding);
+    require_some_png(outputs, encoding);
     for (const OutputRequest& output : outputs)
         if (output.is_film()) require_film(name_of(output), film_options(scene, encoding));
+}
+
+FilmChoice chosen_film(const OutputRequest& output, const Scene& scene,
+                       const EncodingOptions& encoding) {
+    return choose_film(name_of(output), film_options(scene, encoding));
+}
+
+std::string origin_text(const Scene& scene) {
+    return fmt::format("carom {}, scene {:016x}", CAROM_VERSION, scene.fingerprint);
+}
+
+namespace {
+
+/// To nine digits: instants that agree but for rounding have one text.
+std::string time_text(double time_s) { return fmt::format("{:.9g} s", time_s); }
+
+}  // namespace
+
+PngNotes png_notes(const Scene& scene, double time_s, const std::optional<double>& dpi) {
+    constexpr double kInch_m = 0.0254;
+    PngNotes notes;
+    if (dpi) notes.pixels_per_m = *dpi / kInch_m;
+    if (!scene.title.empty()) notes.texts.emplace_back("Title", scene.title);
+    notes.texts.emplace_back("Software", "carom " CAROM_VERSION);
+    notes.texts.emplace_back("Scene", fmt::format("{:016x}", scene.fingerprint));
+    notes.texts.emplace_back("Time", time_text(time_s));
+    return notes;
 }
 
 std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,
                                        const EncodingOptions& encoding) {
     if (!output.is_film()) {
-        if (output.path == "-") return make_png_stream();
-        return make_png_sequence(output.path, 0, encoding.existing);  // has threads of its own
+        const FrameNotes notes = [film = scene.film,
+                                  all = png_notes(scene, 0, encoding.dpi)](std::int64_t number) {
+            PngNotes its_own = all;
+            its_own.texts.back().second = time_text(frame_time(film, number));
+            return its_own;
+        };
+        if (output.path == "-") return make_png_stream(notes);
+        // It has threads of its own.
+        return make_png_sequence(output.path, encoding.threads, encoding.existing, notes);
     }
     const FilmOptions film = film_options(scene, encoding);
     if (output.path == "-") return make_film_stream(output.format, film, kWaitingFrames);

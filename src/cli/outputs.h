@@ -3,22 +3,27 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/distinct_files.h"
+#include "media/film_choice.h"
 #include "media/frame_sink.h"
 #include "scene/frame_ranges.h"
 #include "scene/scene.h"
 
 namespace carom {
 
-/// How films are encoded; PNG frames are not touched by it.
+/// How films are encoded, as asked for on the command line; PNG frames take threads and dpi.
 struct EncodingOptions {
-    std::string quality = "medium";  ///< draft | medium | high: sets crf and preset
-    int crf = -1;                    ///< -1: as the quality says
-    std::string preset;              ///< empty: as the quality says
-    int threads = 0;                 ///< 0: as many as there are processors
+    std::optional<std::string> codec;
+    std::optional<std::string> pixels;   ///< --pix-fmt
+    std::optional<std::string> quality;  ///< none: medium
+    std::optional<int> crf;
+    std::optional<std::string> preset;
+    int threads = 0;            ///< 0: as many as there are processors
+    std::optional<double> dpi;  ///< of PNG frames: pixels per inch on paper
     Existing existing = Existing::kKeep;
 };
 
@@ -44,13 +49,20 @@ void check_outputs(const std::vector<OutputRequest>& outputs, const FrameRanges&
 /// Makes the folders that frames go to, and refuses those that cannot be written into.
 void prepare_folders(const std::vector<OutputRequest>& outputs);
 
-/// Refuses a format without alpha for a scene with a transparent background.
-void check_transparency(const std::vector<OutputRequest>& outputs, const Scene& scene);
-
-/// Refuses what no film can have, before simulating: an odd size, a frame rate beyond the
-/// container.
+/// Refuses what no film can have, before simulating: an option or a transparency that its codec
+/// does not have, an odd size, a frame rate beyond the container, an encoder that is missing.
 void check_films(const std::vector<OutputRequest>& outputs, const Scene& scene,
                  const EncodingOptions& encoding);
+
+/// The codec and settings of one of the films; throws as check_films() does.
+FilmChoice chosen_film(const OutputRequest& output, const Scene& scene,
+                       const EncodingOptions& encoding);
+
+/// What files say of where they come from: carom's version and the scene's fingerprint.
+std::string origin_text(const Scene& scene);
+
+/// What a PNG of the scene at this instant says besides its pixels.
+PngNotes png_notes(const Scene& scene, double time_s, const std::optional<double>& dpi);
 
 /// Opens a sink that works on a thread of its own.
 std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,

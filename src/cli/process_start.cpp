@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 
 namespace carom {
 
@@ -30,5 +31,7 @@ void share_the_heap_where_it_is_limited() {
     if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
         mallopt(M_ARENA_MAX, 1);
 }
+
+void quiet_libraries() { ::setenv("SVT_LOG", "1", 0); }
 
 }  // namespace carom

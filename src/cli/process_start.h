@@ -17,4 +17,8 @@ void let_writing_fail();
 /// aside for each.
 void share_the_heap_where_it_is_limited();
 
+/// SVT-AV1 prints what it is about to do on standard error, unless this variable says "errors
+/// only". Before any thread starts.
+void quiet_libraries();
+
 }  // namespace carom

@@ -10,7 +10,9 @@
 #include "cli/against.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
+#include "cli/encoding_options.h"
 #include "cli/exit_codes.h"
+#include "cli/film_limits.h"
 #include "cli/film_plan.h"
 #include "cli/interrupt.h"
 #include "cli/kept_work.h"
@@ -140,7 +142,8 @@ std::string plan_text(const RenderOptions& options, const Scene& scene, const Mo
     text += fmt::format("{} frames of {}x{} at {} frames/s{}\n", frames.size(), scene.film.width_px,
                         scene.film.height_px, scene.film.fps.per_second(), places);
     for (const std::string& path : options.outputs) text += fmt::format("-> {}\n", readable(path));
-    return text;
+    const FilmNeeds needs = film_needs(requests(options), scene, options.encoding, frames.size());
+    return text + needs_text(needs) + "\n";
 }
 
 /// What can be refused before simulating, when the scene says how long it lasts. True if nothing is
@@ -149,6 +152,7 @@ bool is_done_early(const RenderOptions& options, const Scene& scene) {
     if (!scene.simulation.duration) return false;
     const FrameRanges frames = wanted_frames(options, scene.film, *scene.simulation.duration);
     check_outputs(requests(options), frames, options.common.overwrite);
+    require_room(requests(options), scene, options.encoding, frames.size());
     return frames.empty() && !options.dry_run;
 }
 
@@ -177,7 +181,6 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     }
     if (!scenes) return kExitInvalidScene;
     const Scene* scene = &scenes->scene;
-    check_transparency(requests(options), *scene);
     check_films(requests(options), *scene, options.encoding);
     if (scenes->second) require_second_untouched(options, scenes->second->file);
     if (is_done_early(options, *scene)) return nothing_to_do(options);
@@ -198,6 +201,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
     const FrameRanges frames = wanted_frames(options, scene->film, motion.duration);
     check_outputs(requests(options), frames, options.common.overwrite);
+    require_room(requests(options), *scene, options.encoding, frames.size());
     if (options.dry_run) {
         write_standard_output(plan_text(options, *scene, motion, frames));
         return kExitDone;
@@ -229,13 +233,12 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
 void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto* command = app.add_subcommand("render", "Film a scene, or draw its frames as PNGs");
     auto options = std::make_shared<RenderOptions>();
-    std::vector<std::string> formats;  // of standard output
-    for (const FilmFormat& format : film_formats()) formats.emplace_back(format.extension);
-    formats.emplace_back("png");
+    const std::vector<std::string> formats = stream_formats();
     command->footer(
         "  carom render scene.yaml -o film.mp4\n"
         "  carom render scene.yaml -o frame_%05d.png --frames 0-99 --size 640x360\n"
-        "  carom render scene.yaml -o - --format mkv | ffplay -\n");
+        "  carom render scene.yaml -o - --format mkv | ffplay -\n"
+        "  carom render scene.yaml -o film.webm --set background=transparent --quality high\n");
     command->add_option("scene", options->scene, "Scene file, - for standard input")
         ->required()
         ->type_name("SCENE");
@@ -269,28 +272,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->add_option("--fps", options->common.fps,
                      "Frames per second, e.g. 30000/1001 (default: the scene's film.fps)")
         ->type_name("N");
-    command
-        ->add_option(
-            "--quality", options->encoding.quality,
-            "Sets both of the next two: draft 28 ultrafast, medium 18 veryfast, high 12 medium")
-        ->check(CLI::IsMember({"draft", "medium", "high"}))
-        ->type_name("draft|medium|high")
-        ->capture_default_str();
-    command
-        ->add_option(
-            "--crf", options->encoding.crf,
-            "x264's constant rate factor, 1 (best) to 51 (smallest) (default: as --quality says)")
-        ->check(CLI::Range(1, 51))
-        ->type_name("1-51");
-    command
-        ->add_option("--preset", options->encoding.preset,
-                     "x264's preset, e.g. medium (default: as --quality says)")
-        ->type_name("NAME");
-    command
-        ->add_option("--threads", options->encoding.threads,
-                     "Threads of the encoder, 1 to 128 (default: one per processor)")
-        ->check(CLI::Range(1, 128))
-        ->type_name("N");
+    add_encoding_options(*command, options->encoding);
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "cli/cpu_timer.h"
 #include "core/failure.h"
@@ -35,11 +36,13 @@ namespace {
 
 class PngStream : public FrameSink {
   public:
-    void write(std::int64_t, const Image& frame) override {
+    explicit PngStream(FrameNotes notes) : notes_(std::move(notes)) {}
+
+    void write(std::int64_t number, const Image& frame) override {
         std::string bytes;
         {
             const CpuTimer timer(times_.encode_cpu_s);
-            bytes = encode_png(frame);
+            bytes = encoder_.encode(frame, notes_(number));
         }
         const CpuTimer timer(times_.write_cpu_s);
         write_standard_output(bytes);
@@ -49,6 +52,8 @@ class PngStream : public FrameSink {
     SinkTimes times() const override { return times_; }
 
   private:
+    FrameNotes notes_;
+    PngEncoder encoder_;
     SinkTimes times_;
 };
 
@@ -88,11 +93,13 @@ class FilmStream : public FrameSink {
 
 }  // namespace
 
-std::unique_ptr<FrameSink> make_png_stream() { return std::make_unique<PngStream>(); }
+std::unique_ptr<FrameSink> make_png_stream(FrameNotes notes) {
+    return make_threaded_sink(std::make_unique<PngStream>(std::move(notes)), 1);
+}
 
 std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
                                             int waiting_frames) {
-    if (film_format("film." + format).streams)
+    if (film_format("film." + format).streaming != FilmStreaming::kAtTheEnd)
         return make_threaded_sink(make_film_pipe(STDOUT_FILENO, format, options), waiting_frames);
     return std::make_unique<FilmStream>(format, options, waiting_frames);
 }

@@ -14,11 +14,10 @@ namespace carom {
 void write_standard_output(std::string_view bytes);
 
 /// Frames as PNGs, one after another.
-std::unique_ptr<FrameSink> make_png_stream();
+std::unique_ptr<FrameSink> make_png_stream(FrameNotes notes);
 
 /// A film in `format`, the extension of a FilmFormat. What streams goes out as it is made. The rest
-/// is muxed into a temporary file and copied at the end, as of an MP4 the index stands first and is
-/// known last.
+/// is made as a temporary file and copied at the end, for its head says what is known last.
 std::unique_ptr<FrameSink> make_film_stream(const std::string& format, const FilmOptions& options,
                                             int waiting_frames);
 

@@ -13,9 +13,11 @@
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/distinct_files.h"
+#include "cli/encoding_options.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
+#include "cli/outputs.h"
 #include "cli/short_lived.h"
 #include "cli/shown_simulation.h"
 #include "cli/standard_output.h"
@@ -35,6 +37,7 @@ struct StillOptions {
     std::string output;
     double time = 0;
     std::optional<double> strobe;  ///< s between instants
+    std::optional<double> dpi;
     AgainstOptions against;
     CommonOptions common;
 };
@@ -119,11 +122,12 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
     interrupt.check();
     {
         const CpuTimer timer(stats.sinks.encode_cpu_s);
+        const PngNotes notes = png_notes(*scene, options.time, options.dpi);
         if (options.output == "-")
-            write_standard_output(encode_png(picture));
+            write_standard_output(encode_png(picture, PngEffort::kFast, notes));
         else
             write_png(options.output, picture, PngEffort::kFast, Durability::kSynced,
-                      options.common.existing());
+                      options.common.existing(), notes);
     }
     stats.frames = 1;
     stats.add_painter(painter);
@@ -155,6 +159,7 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_option("-o,--output", options->output, "picture.png, or - for standard output")
         ->required()
         ->type_name("OUT.png");
+    add_dpi_option(*command, options->dpi);
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);

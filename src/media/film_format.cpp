@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
+#include <vector>
 
 #include "core/failure.h"
 
@@ -13,14 +13,47 @@ namespace carom {
 
 namespace {
 
+using T = FilmTimes;
+using S = FilmStreaming;
+
+// Frames/s: Matroska has one millisecond each. Browsers show what stands for less than 20 ms (GIF)
+// or up to 10 ms (WebP) for 100 ms.
+constexpr int kNoLimit = 1'000'000'000, kOneMillisecondEach = 1000, kWebp = 90, kGif = 50;
+
 constexpr std::array kFormats = {
-    FilmFormat{"mp4", "MP4", "libx264", "mp4", false, FilmTimes::kExact, false},
-    FilmFormat{"mkv", "Matroska", "libx264", "matroska", false, FilmTimes::kMilliseconds, true},
+    FilmFormat{"mp4", "MP4", "mp4", {"h264", "h265", "av1"}, T::kExact, kNoLimit, S::kFragments},
+    FilmFormat{"mkv",
+               "Matroska",
+               "matroska",
+               {"h264", "h265", "ffv1", "vp9", "av1"},
+               T::kMilliseconds,
+               kOneMillisecondEach,
+               S::kAsMade},
+    FilmFormat{
+        "mov", "QuickTime", "mov", {"prores", "h264", "h265"}, T::kExact, kNoLimit, S::kFragments},
+    FilmFormat{
+        "webm", "WebM", "webm", {"vp9", "av1"}, T::kMilliseconds, kOneMillisecondEach, S::kAsMade},
+    FilmFormat{"gif", "GIF", "gif", {"gif"}, T::kHundredths, kGif, S::kAtTheEnd},
+    FilmFormat{"apng", "APNG", "apng", {"apng"}, T::kFraction, kNoLimit, S::kAtTheEnd},
+    FilmFormat{"webp", "WebP", nullptr, {"webp"}, T::kMilliseconds, kWebp, S::kAtTheEnd},
+    FilmFormat{"y4m", "YUV4MPEG2", "yuv4mpegpipe", {"y4m"}, T::kRate, kNoLimit, S::kAsMade},
+    FilmFormat{"raw", "raw video", "rawvideo", {"raw"}, T::kRate, kNoLimit, S::kAsMade},
 };
 
-constexpr int kMostInMilliseconds = 1000;  // frames/s: one time each
+constexpr int kMost16Bits = 65535;
 
 }  // namespace
+
+std::span<const std::string_view> FilmFormat::codec_names() const {
+    const auto end = std::find(codecs.begin(), codecs.end(), std::string_view());
+    return {codecs.data(), static_cast<std::size_t>(end - codecs.begin())};
+}
+
+bool FilmFormat::has_alpha() const {
+    const auto names = codec_names();
+    return std::any_of(names.begin(), names.end(),
+                       [](std::string_view name) { return find_film_codec(name)->has_alpha(); });
+}
 
 std::span<const FilmFormat> film_formats() { return kFormats; }
 
@@ -43,23 +76,40 @@ const FilmFormat& film_format(const std::string& path) {
                                                    path, film_extensions()));
 }
 
-std::string film_extensions() {
+std::string film_extensions(bool alpha) {
+    std::vector<std::string> names;
+    for (const FilmFormat& format : kFormats)
+        if (!alpha || format.has_alpha()) names.push_back(fmt::format(".{}", format.extension));
     std::string text;
-    for (const FilmFormat& format : kFormats) {
-        const bool last = &format == &kFormats.back();
-        text += text.empty() ? "." : last ? " or ." : ", .";
-        text += format.extension;
+    for (const std::string& name : names) {
+        const bool last = &name == &names.back();
+        text += (text.empty() ? "" : last ? " or " : ", ") + name;
     }
     return text;
 }
 
-void require_time_stamps(const FilmFormat& format, const std::string& path, double frames_per_s) {
-    if (format.times != FilmTimes::kMilliseconds || frames_per_s <= kMostInMilliseconds) return;
-    throw Failure(FailureKind::kInput,
-                  fmt::format("'{}': {} counts milliseconds, and at {:.6g} frames/s "
-                              "several frames would have one time; write an .mp4, or at most {} "
-                              "frames/s",
-                              path, format.title, frames_per_s, kMostInMilliseconds));
+void require_time_stamps(const FilmFormat& format, const std::string& path, int fps_numerator,
+                         int fps_denominator) {
+    const double fps = static_cast<double>(fps_numerator) / fps_denominator;
+    const auto refuse = [&](const std::string& why) {
+        throw Failure(FailureKind::kInput, fmt::format("'{}': {}", path, why));
+    };
+    if (format.times == FilmTimes::kFraction &&
+        (fps_numerator > kMost16Bits || fps_denominator > kMost16Bits))
+        refuse(
+            fmt::format("{} keeps a frame's duration as a fraction of two numbers up to {}, "
+                        "which {}/{} s is not; choose another film.fps (--fps)",
+                        format.title, kMost16Bits, fps_denominator, fps_numerator));
+    if (fps <= format.most_per_s) return;
+    const char* counts =
+        format.times == FilmTimes::kHundredths ? "hundredths of a second" : "milliseconds";
+    const char* then = format.most_per_s == kOneMillisecondEach
+                           ? "several frames would have one time"
+                           : "players would show each frame for a tenth of a second";
+    refuse(
+        fmt::format("{} counts {}, and at {:.6g} frames/s {}; take at most {} (--fps {}), or "
+                    "write an .mp4",
+                    format.title, counts, fps, then, format.most_per_s, format.most_per_s));
 }
 
 }  // namespace carom

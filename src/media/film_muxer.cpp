@@ -48,15 +48,20 @@ void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
 std::string pipe_url(int descriptor) { return fmt::format("pipe:{}", descriptor); }
 
 FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const FilmFormat& format,
-                     const AVCodecContext& encoder, const std::string& title)
-    : path_(path), encoder_time_base_(encoder.time_base) {
+                     const VideoEncoder& video, const std::string& title,
+                     const std::string& comment)
+    : path_(path), encoder_time_base_(video.context().time_base) {
+    const AVCodecContext& encoder = video.context();
     const LibavMessages messages;
     AVFormatContext* context = nullptr;
     check(libav().avformat_alloc_output_context2(&context, nullptr, format.container, url.c_str()),
           "make a container for", messages);
     context_.reset(context);
     context->flags |= AVFMT_FLAG_BITEXACT;
-    if (url.starts_with("pipe:")) context->flush_packets = 1;  // somebody waits
+    const bool into_pipe = url.starts_with("pipe:");
+    if (into_pipe) context->flush_packets = 1;  // somebody waits
+    // Of YUV4MPEG2 more than 8 bits are an extension, which FFmpeg and mplayer read.
+    context->strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL;
 
     AVStream* stream = allocated(libav().avformat_new_stream(context, nullptr));
     check(libav().avcodec_parameters_from_context(stream->codecpar, &encoder),
@@ -64,22 +69,35 @@ FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const Film
     stream->time_base = encoder.time_base;
     stream->avg_frame_rate = encoder.framerate;
     stream->r_frame_rate = encoder.framerate;
-    if (!title.empty() && libav().av_dict_set(&context->metadata, "title", title.c_str(), 0) < 0)
-        throw std::bad_alloc();
+    // Apple's players want H.265 with its parameter sets in the index alone, and this name says so.
+    if (encoder.codec_id == AV_CODEC_ID_HEVC && format.times == FilmTimes::kExact)
+        stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
+    if (video.alpha_beside()) stream->codecpar->format = AV_PIX_FMT_YUVA420P;
+    set_text("title", title);
+    set_text("comment", comment);
 
     check(libav().avio_open(&context->pb, context->url, AVIO_FLAG_WRITE), "write", messages);
-    write_header(format);
+    write_header(format, into_pipe);
 }
 
-void FilmMuxer::write_header(const FilmFormat& format) {
+void FilmMuxer::set_text(const char* key, const std::string& text) {
+    if (!text.empty() && libav().av_dict_set(&context_->metadata, key, text.c_str(), 0) < 0)
+        throw std::bad_alloc();
+}
+
+void FilmMuxer::write_header(const FilmFormat& format, bool into_pipe) {
     const LibavMessages messages;
     Options options;
     if (format.times == FilmTimes::kExact) {
         const std::string scale = std::to_string(exact_time_scale(encoder_time_base_));
-        options.set("movflags", "+faststart");
+        // delay_moov: the index is written when the first times are known, so that it can say that
+        // the film begins at 0 although its first packet is decoded earlier.
+        options.set("movflags",
+                    into_pipe ? "+frag_keyframe+delay_moov+default_base_moof" : "+faststart");
         options.set("video_track_timescale", scale);
         options.set("movie_timescale", scale);
     }
+    if (format.times == FilmTimes::kFraction) options.set("plays", "0");  // again and again
     check(libav().avformat_write_header(context_.get(), options.get()), "write", messages);
 }
 

@@ -6,6 +6,7 @@
 
 #include "media/film_format.h"
 #include "media/libav.h"
+#include "media/video_encoder.h"
 
 namespace carom {
 
@@ -15,14 +16,14 @@ std::string pipe_url(int descriptor);
 /// Writes one stream of packets into a file.
 ///
 /// With exact times (MP4): moov first, and a time scale in which a frame's duration is a whole
-/// number, also for 30000/1001. No container holds a date or a version, so the bytes follow from
-/// the packets alone.
+/// number, also for 30000/1001; into a pipe, fragments from keyframe to keyframe instead. No
+/// container holds a date or FFmpeg's version, so the bytes follow from packets and texts alone.
 class FilmMuxer {
   public:
-    /// Writes to `url` (libav_url() or pipe_url()); `path` is for messages. `title` may be empty.
-    /// Throws Failure(kOutput).
+    /// Writes to `url` (libav_url() or pipe_url()); `path` is for messages. `title` and `comment`
+    /// may be empty. Throws Failure(kOutput).
     FilmMuxer(const std::string& url, const std::string& path, const FilmFormat& format,
-              const AVCodecContext& encoder, const std::string& title);
+              const VideoEncoder& video, const std::string& title, const std::string& comment);
     ~FilmMuxer();
     FilmMuxer(const FilmMuxer&) = delete;
     FilmMuxer& operator=(const FilmMuxer&) = delete;
@@ -33,7 +34,8 @@ class FilmMuxer {
     void close();                  ///< the rest of the file; everything is written or it throws
 
   private:
-    void write_header(const FilmFormat& format);
+    void set_text(const char* key, const std::string& text);
+    void write_header(const FilmFormat& format, bool into_pipe);
     void check(int result, const char* action, const LibavMessages& messages) const;
 
     struct CloseContext {

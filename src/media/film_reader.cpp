@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "media/libav.h"
+#include "media/straight_alpha.h"
 
 namespace carom {
 
@@ -44,7 +45,7 @@ class FilmReader::Impl {
         const AVCodec* codec = nullptr;
         stream_ = libav().av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
         check(stream_, messages);
-        open_decoder(codec, messages);
+        open_decoder(with_alpha(codec), messages);
         packet_.reset(allocated(libav().av_packet_alloc()));
         frame_.reset(allocated(libav().av_frame_alloc()));
     }
@@ -77,6 +78,16 @@ class FilmReader::Impl {
   private:
     void check(int result, const LibavMessages& messages) const {
         if (result < 0) throw_libav(FailureKind::kInput, "read the film", path_, result, messages);
+    }
+
+    /// FFmpeg's own decoder of VP9 leaves the alpha out that stands beside the pictures; libvpx
+    /// does not.
+    const AVCodec* with_alpha(const AVCodec* codec) const {
+        const AVStream& stream = *input_->streams[stream_];
+        if (stream.codecpar->codec_id != AV_CODEC_ID_VP9) return codec;
+        if (libav().av_dict_get(stream.metadata, "alpha_mode", nullptr, 0) == nullptr) return codec;
+        const AVCodec* libvpx = libav().avcodec_find_decoder_by_name("libvpx-vp9");
+        return libvpx == nullptr ? codec : libvpx;
     }
 
     void open_decoder(const AVCodec* codec, const LibavMessages& messages) {
@@ -145,6 +156,9 @@ class FilmReader::Impl {
         check(libav().sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, height_, planes,
                                 strides),
               messages);
+        const AVPixFmtDescriptor* format = libav().av_pix_fmt_desc_get(format_);
+        if (format != nullptr && (format->flags & AV_PIX_FMT_FLAG_ALPHA) != 0)
+            premultiply_image(image);
     }
 
     std::string path_;

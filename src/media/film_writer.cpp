@@ -1,11 +1,12 @@
 // The film as a sink of frames: encoder, container, and a name that appears at the end.
-#include <fmt/format.h>
-
-#include "media/film_format.h"
+#include "core/check.h"
+#include "media/film_choice.h"
 #include "media/film_muxer.h"
+#include "media/film_text.h"
 #include "media/frame_sink.h"
 #include "media/output_file.h"
 #include "media/video_encoder.h"
+#include "media/webp_film.h"
 
 namespace carom {
 
@@ -17,7 +18,7 @@ class FilmEncoding {
     /// `url` is where the container goes; `path` is for messages.
     FilmEncoding(const std::string& url, const std::string& path, const FilmFormat& format,
                  VideoEncoder& encoder, const FilmOptions& options)
-        : encoder_(encoder), muxer_(url, path, format, encoder.context(), options.title) {}
+        : encoder_(encoder), muxer_(url, path, format, encoder, options.title, options.comment) {}
 
     void write(const Image& frame) {
         encoder_.encode(frame, [this](AVPacket& packet) { mux(packet); });
@@ -46,29 +47,37 @@ class FilmEncoding {
 
 class FilmWriter final : public FrameSink {
   public:
-    FilmWriter(const std::string& path, const FilmOptions& options)
-        : format_(film_format(path)),
-          encoder_(path, options, FilmMuxer::wants_global_header(format_)),
+    FilmWriter(const std::string& path, const FilmChoice& choice, const FilmOptions& options)
+        : format_(*choice.format),
+          options_(options),
+          encoder_(path, choice, options, FilmMuxer::wants_global_header(format_)),
           file_(path, options.existing),
           film_(libav_url(file_.temporary_path()), path, format_, encoder_, options) {}
 
     void write(std::int64_t, const Image& frame) override { film_.write(frame); }
 
     void finish() override {
-        film_.close();
+        close();
         file_.commit();
     }
 
     std::string keep_partial() override {
         if (encoder_.frames() == 0) return "";
-        film_.close();
+        close();
         return file_.commit_partial();
     }
 
     SinkTimes times() const override { return film_.times(); }
 
   private:
+    void close() {
+        film_.close();
+        append_film_text(file_.temporary_path(), file_.path(), format_, options_.title,
+                         options_.comment);
+    }
+
     const FilmFormat& format_;
+    const FilmOptions options_;
     VideoEncoder encoder_;
     OutputFile file_;
     FilmEncoding film_;
@@ -76,9 +85,9 @@ class FilmWriter final : public FrameSink {
 
 class FilmPipe final : public FrameSink {
   public:
-    FilmPipe(int descriptor, const FilmFormat& format, const FilmOptions& options)
-        : encoder_(kName, options, FilmMuxer::wants_global_header(format)),
-          film_(pipe_url(descriptor), kName, format, encoder_, options) {}
+    FilmPipe(int descriptor, const FilmChoice& choice, const FilmOptions& options)
+        : encoder_(kName, choice, options, FilmMuxer::wants_global_header(*choice.format)),
+          film_(pipe_url(descriptor), kName, *choice.format, encoder_, options) {}
 
     void write(std::int64_t, const Image& frame) override { film_.write(frame); }
     void finish() override { film_.close(); }
@@ -97,21 +106,20 @@ class FilmPipe final : public FrameSink {
 }  // namespace
 
 void require_film(const std::string& path, const FilmOptions& options) {
-    require_film_options(options);
-    require_time_stamps(film_format(path), path,
-                        static_cast<double>(options.fps_numerator) / options.fps_denominator);
+    find_encoder(path, *choose_film(path, options).codec);
 }
 
 std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const std::string& extension,
                                           const FilmOptions& options) {
-    const std::string name = "standard output." + extension;
-    require_film(name, options);
-    return std::make_unique<FilmPipe>(descriptor, film_format(name), options);
+    const FilmChoice choice = choose_film("standard output." + extension, options);
+    CAROM_CHECK(choice.format->streaming != FilmStreaming::kAtTheEnd, ==, true);
+    return std::make_unique<FilmPipe>(descriptor, choice, options);
 }
 
 std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options) {
-    require_film(path, options);
-    return std::make_unique<FilmWriter>(path, options);
+    const FilmChoice choice = choose_film(path, options);
+    if (choice.format->container == nullptr) return make_webp_film(path, choice, options);
+    return std::make_unique<FilmWriter>(path, choice, options);
 }
 
 }  // namespace carom

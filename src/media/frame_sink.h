@@ -2,17 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "core/image.h"
 #include "media/output_file.h"
+#include "media/png.h"
 
 namespace carom {
 
-/// CPU seconds by stage, summed over all threads that work for the sink, x264's own included (found
-/// by their name, see media/thread_clock.h; without /proc they are missing).
+/// CPU seconds by stage, summed over all threads that work for the sink, the encoder's own included
+/// (found by their name, see media/thread_clock.h; without /proc they are missing).
 struct SinkTimes {
     double convert_cpu_s = 0;
     double encode_cpu_s = 0;
@@ -36,41 +38,53 @@ class FrameSink {
     virtual SinkTimes times() const = 0;
 };
 
+/// How a film is coded. What is not given is as the kind of film has it; what is given and means
+/// nothing to its codec is refused by name.
 struct FilmOptions {
     int width_px = 1280;
     int height_px = 720;
     int fps_numerator = 60;
     int fps_denominator = 1;
-    int crf = 18;                            ///< 1 (best) ... 51 (smallest)
-    std::string preset = "veryfast";         ///< of x264
-    int threads = 0;                         ///< of the encoder; 0: as many as there are processors
-    std::string title;                       ///< metadata, empty for none
+    bool transparent = false;            ///< the frames' alpha is kept; else they lie over black
+    std::string codec;                   ///< FilmCodec::name; empty: the first that will do
+    std::string pixels;                  ///< PixelFormatInfo::name; empty: the codec's first
+    std::optional<std::string> quality;  ///< draft | medium | high; none: medium
+    std::optional<int> crf;              ///< none: as the quality says
+    std::optional<std::string> preset;   ///< none: as the quality says
+    int threads = 0;                     ///< of the encoder; 0: as many as there are processors
+    std::string title;                   ///< metadata, empty for none
+    std::string comment;                 ///< metadata, empty for none
     Existing existing = Existing::kReplace;  ///< what stands under the film's name
 };
 
 /// A film of the kind that the extension of `path` names (media/film_format.h), of constant rate
-/// with pts = frame index. H.264: yuv420p, BT.709 converted and tagged, High profile.
-/// Throws Failure(kRun) when the encoder is missing.
+/// with pts = frame index; Y'CbCr is converted and tagged as BT.709, H.264 of 4:2:0 and 8 bits has
+/// the High profile. Throws Failure(kRun) that names the encoder when it is missing.
 std::unique_ptr<FrameSink> make_film_writer(const std::string& path, const FilmOptions& options);
 
-/// The same into an open pipe, as the frames come, in a format that streams: Matroska without a
-/// length in its header, and without an index. `descriptor` stays open. Throws ReaderGone when
-/// nobody reads any more.
+/// The same into an open pipe, as the frames come, for formats that stream: MP4 in fragments,
+/// Matroska without a length in its header and without an index. `descriptor` stays open. Throws
+/// ReaderGone when nobody reads any more.
 std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const std::string& extension,
                                           const FilmOptions& options);
 
-/// Refuses what no film of this name can have, before any work: Failure(kInput) for an odd size, an
-/// unknown preset, or more frames a second than the container has time stamps for.
+/// Refuses what no film of this name can have, before any work: Failure(kInput) for a codec or an
+/// option that this kind does not have, an odd size where chroma is halved, or a frame rate that
+/// the container has no time stamps for; Failure(kRun) for an encoder that this FFmpeg lacks.
 void require_film(const std::string& path, const FilmOptions& options);
+
+/// What the PNG of a frame says besides its pixels; asked from several threads at once.
+using FrameNotes = std::function<PngNotes(std::int64_t number)>;
 
 /// One PNG per frame; `pattern` holds %05d (or %d, %0Nd), or names a folder, which is made if need
 /// be and gets frame_%05d.png. "%%" stands for a percent sign. `threads` encode beside the caller
-/// (0: one per processor, at most 8); each keeps two frames in memory. A frame appears under its
+/// (0: one per processor, at most 8); each keeps three frames in memory. A frame appears under its
 /// name only when whole; keep_partial() keeps all that are, and returns the folder.
 /// Throws Failure(kInput) for a pattern that is none, Failure(kOutput) for a folder that cannot be
 /// made.
 std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern, int threads = 0,
-                                             Existing existing = Existing::kReplace);
+                                             Existing existing = Existing::kReplace,
+                                             FrameNotes notes = {});
 
 /// The path of one frame of a PNG sequence. Throws Failure(kInput) as make_png_sequence() does.
 std::string sequence_path(const std::string& pattern, std::int64_t number);

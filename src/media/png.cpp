@@ -5,11 +5,11 @@
 //
 #include <fmt/format.h>
 #include <png.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -17,6 +17,9 @@
 
 #include "core/check.h"
 #include "core/failure.h"
+#include "media/film_text.h"
+#include "media/png_rows.h"
+#include "media/straight_alpha.h"
 
 namespace carom {
 
@@ -118,17 +121,6 @@ bool is_opaque(const Image& image) {
     return true;
 }
 
-/// p = straight * a / 255, rounded. The inverse of straighten() for every p <= a: straight is off
-/// by at most 1/2, so p by at most a/510, which is below 1/2 unless a = 255, where both are exact.
-std::uint8_t premultiply(unsigned straight, unsigned a) {
-    return static_cast<std::uint8_t>((straight * a + 127) / 255);
-}
-
-std::uint8_t straighten(unsigned premultiplied, unsigned a) {
-    if (a == 0) return 0;
-    return static_cast<std::uint8_t>(std::min(255U, (premultiplied * 255 + a / 2) / a));
-}
-
 /// One row of premultiplied BGRA as straight RGBA.
 void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width) {
     for (int x = 0; x < width; ++x, bgra += 4, rgba += 4) {
@@ -140,17 +132,95 @@ void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width) {
     }
 }
 
-void set_effort(png_structp png, PngEffort effort) {
-    constexpr std::size_t kChunkBytes = 1 << 16;
-    png_set_compression_buffer_size(png, kChunkBytes);
-    if (effort == PngEffort::kFast) {
-        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-        png_set_compression_level(png, 1);
-        png_set_compression_strategy(png, Z_RLE);
-    } else {
+/// What stands before the pixels: head, colour space, physical size, texts.
+void write_head(png_structp png, png_infop info, const Image& image, bool opaque,
+                const PngNotes& notes, const std::string& texts) {
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
+                 static_cast<png_uint_32>(image.height_px), 8,
+                 opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (notes.pixels_per_m > 0) {
+        const auto per_m = static_cast<png_uint_32>(std::lround(notes.pixels_per_m));
+        png_set_pHYs(png, info, per_m, per_m, PNG_RESOLUTION_METER);
+    }
+    png_write_info(png, info);
+    std::string& bytes = *static_cast<std::string*>(png_get_io_ptr(png));
+    bytes += texts;
+}
+
+std::string text_chunks(const PngNotes& notes) {
+    std::string bytes;
+    for (const auto& [keyword, text] : notes.texts) bytes += png_text_chunk(keyword, text);
+    return bytes;
+}
+
+void require_picture(const Image& image) {
+    CAROM_CHECK(image.width_px, >, 0);
+    CAROM_CHECK(image.height_px, >, 0);
+    CAROM_CHECK(image.bgra.size(), ==,
+                image.stride_bytes() * static_cast<std::size_t>(image.height_px));
+}
+
+[[noreturn]] void fail_encoding(const Image& image, const char* why) {
+    throw Failure(FailureKind::kOutput, fmt::format("cannot encode a PNG of {}x{}: {}",
+                                                    image.width_px, image.height_px, why));
+}
+
+/// kSmall: libpng filters and compresses.
+std::string encode_small(const Image& image, const PngNotes& notes) {
+    const bool opaque = is_opaque(image);
+    std::vector<std::uint8_t> straight(opaque ? 0 : image.stride_bytes());
+    const std::string texts = text_chunks(notes);
+    PngWriter writer;
+    png_structp png = writer.png();
+    png_infop info = writer.info();
+    std::string* bytes = &writer.bytes();
+
+    const bool done = guarded(png, [&] {
+        png_set_write_fn(png, bytes, carom_png_append, nullptr);
+        constexpr std::size_t kChunkBytes = 1 << 16;
+        png_set_compression_buffer_size(png, kChunkBytes);
         png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
         png_set_compression_level(png, 9);
-    }
+        write_head(png, info, image, opaque, notes, texts);
+        if (opaque) {  // the fourth byte is dropped
+            png_set_filler(png, 0, PNG_FILLER_AFTER);
+            png_set_bgr(png);
+        }
+        for (int y = 0; y < image.height_px; ++y) {
+            if (!opaque) straighten_row(image.row(y), straight.data(), image.width_px);
+            png_write_row(png, opaque ? image.row(y) : straight.data());
+        }
+        png_write_end(png, nullptr);
+    });
+    if (!done) fail_encoding(image, writer.text());
+    return std::move(writer.bytes());
+}
+
+/// kFast: libpng writes chunks whose content is there already.
+std::string encode_fast(const Image& image, PngRows& rows, const PngNotes& notes) {
+    const std::vector<const std::string*>& pieces = rows.compress(image);
+    const std::string texts = text_chunks(notes);
+    PngWriter writer;
+    png_structp png = writer.png();
+    png_infop info = writer.info();
+    std::string* bytes = &writer.bytes();
+    std::string data;
+    for (const std::string* piece : pieces) data += *piece;
+    const auto* idat = reinterpret_cast<png_const_bytep>(data.data());
+
+    const bool done = guarded(png, [&] {
+        png_set_write_fn(png, bytes, carom_png_append, nullptr);
+        write_head(png, info, image, rows.opaque(), notes, texts);
+        constexpr std::size_t kChunkBytes = 1 << 20;
+        for (std::size_t at = 0; at < data.size(); at += kChunkBytes)
+            png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), idat + at,
+                            std::min(kChunkBytes, data.size() - at));
+        png_write_chunk(png, reinterpret_cast<png_const_bytep>("IEND"), nullptr, 0);
+    });
+    if (!done) fail_encoding(image, writer.text());
+    return std::move(writer.bytes());
 }
 
 /// A file that closes itself.
@@ -175,47 +245,24 @@ void set_reading_transforms(png_structp png) {
 
 }  // namespace
 
-std::string encode_png(const Image& image, PngEffort effort) {
-    CAROM_CHECK(image.width_px, >, 0);
-    CAROM_CHECK(image.height_px, >, 0);
-    CAROM_CHECK(image.bgra.size(), ==,
-                image.stride_bytes() * static_cast<std::size_t>(image.height_px));
-    const bool opaque = is_opaque(image);
-    std::vector<std::uint8_t> straight(opaque ? 0 : image.stride_bytes());
-    PngWriter writer;
-    png_structp png = writer.png();
-    png_infop info = writer.info();
-    std::string* bytes = &writer.bytes();
+std::string encode_png(const Image& image, PngEffort effort, const PngNotes& notes) {
+    require_picture(image);
+    if (effort == PngEffort::kSmall) return encode_small(image, notes);
+    PngRows rows;
+    return encode_fast(image, rows, notes);
+}
 
-    const bool done = guarded(png, [&] {
-        png_set_write_fn(png, bytes, carom_png_append, nullptr);
-        set_effort(png, effort);
-        png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
-                     static_cast<png_uint_32>(image.height_px), 8,
-                     opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
-                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-        png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-        png_write_info(png, info);
-        if (opaque) {  // the fourth byte is dropped
-            png_set_filler(png, 0, PNG_FILLER_AFTER);
-            png_set_bgr(png);
-        }
-        for (int y = 0; y < image.height_px; ++y) {
-            if (!opaque) straighten_row(image.row(y), straight.data(), image.width_px);
-            png_write_row(png, opaque ? image.row(y) : straight.data());
-        }
-        png_write_end(png, nullptr);
-    });
-    if (!done)
-        throw Failure(FailureKind::kOutput,
-                      fmt::format("cannot encode a PNG of {}x{}: {}", image.width_px,
-                                  image.height_px, writer.text()));
-    return std::move(writer.bytes());
+PngEncoder::PngEncoder() : rows_(std::make_unique<PngRows>()) {}
+PngEncoder::~PngEncoder() = default;
+
+std::string PngEncoder::encode(const Image& image, const PngNotes& notes) {
+    require_picture(image);
+    return encode_fast(image, *rows_, notes);
 }
 
 void write_png(const std::string& path, const Image& image, PngEffort effort, Durability durability,
-               Existing existing) {
-    write_text_file(path, encode_png(image, effort), durability, existing);
+               Existing existing, const PngNotes& notes) {
+    write_text_file(path, encode_png(image, effort, notes), durability, existing);
 }
 
 Image read_png(const std::string& path) {

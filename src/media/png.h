@@ -1,7 +1,10 @@
 // PNG files through libpng.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/image.h"
 #include "media/output_file.h"
@@ -12,14 +15,35 @@ namespace carom {
 /// kSmall: level 9, the filter chosen row by row, for goldens and stills.
 enum class PngEffort { kFast, kSmall };
 
+/// What a PNG says besides its pixels.
+struct PngNotes {
+    double pixels_per_m = 0;  ///< physical size (pHYs); 0 for none
+    /// Keywords and texts (tEXt; iTXt where not ASCII).
+    std::vector<std::pair<std::string, std::string>> texts;
+};
+
 /// Writes `image` (alpha only where a pixel is not opaque) to `path`, whole or not at all.
 /// Tagged as sRGB. PNG's alpha is straight: a premultiplied channel survives the way there and back
 /// exactly. Throws Failure(kOutput).
 void write_png(const std::string& path, const Image& image, PngEffort effort = PngEffort::kFast,
-               Durability durability = Durability::kSynced, Existing existing = Existing::kReplace);
+               Durability durability = Durability::kSynced, Existing existing = Existing::kReplace,
+               const PngNotes& notes = {});
 
 /// The encoded bytes, for standard output.
-std::string encode_png(const Image& image, PngEffort effort = PngEffort::kFast);
+std::string encode_png(const Image& image, PngEffort effort = PngEffort::kFast,
+                       const PngNotes& notes = {});
+
+/// Encodes frame after frame as kFast does, with the same bytes, and works only on the rows that
+/// differ from the frame before. Keeps one picture.
+class PngEncoder {
+  public:
+    PngEncoder();
+    ~PngEncoder();
+    std::string encode(const Image& image, const PngNotes& notes = {});
+
+  private:
+    std::unique_ptr<class PngRows> rows_;
+};
 
 /// Any PNG (grey, palette, 16 bits, transparent, interlaced) as 8-bit premultiplied BGRA. Samples
 /// are taken as sRGB, whatever gamma the file names. Throws Failure(kInput) with libpng's text when

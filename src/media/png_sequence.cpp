@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "core/check.h"
 #include "core/failure.h"
@@ -104,12 +106,16 @@ int thread_count(int wanted) {
 
 class PngSequence final : public FrameSink {
   public:
-    PngSequence(const std::string& text, int threads, Existing existing)
+    PngSequence(const std::string& text, int threads, Existing existing, FrameNotes notes)
         : pattern_(sequence_pattern(text)),
           existing_(existing),
+          notes_(std::move(notes)),
           folder_(fs::path(frame_path(pattern_, 0)).parent_path().string()),
+          encoders_(static_cast<std::size_t>(thread_count(threads))),
           workers_(thread_count(threads), thread_count(threads),
-                   [this](int, std::int64_t number, const Image& frame) { save(number, frame); }) {
+                   [this](int worker, std::int64_t number, const Image& frame) {
+                       save(encoders_[static_cast<std::size_t>(worker)], number, frame);
+                   }) {
         if (!folder_.empty()) prepare_folder(folder_);
     }
 
@@ -137,9 +143,9 @@ class PngSequence final : public FrameSink {
     }
 
   private:
-    void save(std::int64_t number, const Image& frame) {
+    void save(PngEncoder& encoder, std::int64_t number, const Image& frame) {
         const double begin = calling_thread_cpu_s();
-        const std::string bytes = encode_png(frame);
+        const std::string bytes = encoder.encode(frame, notes_ ? notes_(number) : PngNotes{});
         const double encoded = calling_thread_cpu_s();
         write_text_file(frame_path(pattern_, number), bytes, Durability::kUnsynced, existing_);
         const double written = calling_thread_cpu_s();
@@ -152,11 +158,13 @@ class PngSequence final : public FrameSink {
 
     const Pattern pattern_;
     const Existing existing_;
+    const FrameNotes notes_;
     const std::string folder_;
     mutable std::mutex mutex_;
     SinkTimes times_;
     std::int64_t written_ = 0;
-    FrameWorkers workers_;  ///< last: its threads use the rest
+    std::vector<PngEncoder> encoders_;  ///< of each worker
+    FrameWorkers workers_;              ///< last: its threads use the rest
 };
 
 }  // namespace
@@ -185,8 +193,8 @@ std::optional<std::int64_t> sequence_number(const std::string& pattern, const st
 }
 
 std::unique_ptr<FrameSink> make_png_sequence(const std::string& pattern, int threads,
-                                             Existing existing) {
-    return std::make_unique<PngSequence>(pattern, threads, existing);
+                                             Existing existing, FrameNotes notes) {
+    return std::make_unique<PngSequence>(pattern, threads, existing, std::move(notes));
 }
 
 }  // namespace carom

@@ -1,19 +1,21 @@
-// H.264 through FFmpeg's libx264. Only .cpp files of this folder include it.
+// Pictures into packets, through one of FFmpeg's encoders. Only .cpp files of this folder include
+// it.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
-#include "media/frame_sink.h"
+#include "media/film_choice.h"
+#include "media/frame_converter.h"
 #include "media/libav.h"
 #include "media/thread_clock.h"
-#include "media/yuv420.h"
+#include "media/vp9_alpha.h"
 
 namespace carom {
 
-/// Throws Failure(kInput) when an option is not one that an encoder can take: an odd size, a frame
-/// rate that is not positive, an unknown preset (with the nearest one), crf outside 1 ... 51.
-void require_film_options(const FilmOptions& options);
+/// The codec's encoder; Failure(kRun) that names it where this FFmpeg lacks it.
+const AVCodec& find_encoder(const std::string& path, const FilmCodec& codec);
 
 /// Pictures in, packets out. pts counts frames from 0 in units of 1/fps.
 class VideoEncoder {
@@ -21,8 +23,9 @@ class VideoEncoder {
     using TakePacket = std::function<void(AVPacket&)>;
 
     /// `path` is for messages. `global_header`: the container keeps the parameter sets itself.
-    /// Throws Failure(kRun), e.g. when libx264 is missing.
-    VideoEncoder(const std::string& path, const FilmOptions& options, bool global_header);
+    /// Throws Failure(kRun), e.g. when the encoder is missing.
+    VideoEncoder(const std::string& path, const FilmChoice& choice, const FilmOptions& options,
+                 bool global_header);
 
     /// Converts and encodes; `take` gets the packets that come out, maybe none.
     void encode(const Image& image, const TakePacket& take);
@@ -30,13 +33,15 @@ class VideoEncoder {
     void flush(const TakePacket& take);
 
     const AVCodecContext& context() const { return *context_; }
+    /// Packets carry their alpha beside them.
+    bool alpha_beside() const { return alpha_.has_value(); }
     std::int64_t frames() const { return frames_; }
     double convert_cpu_s() const { return convert_cpu_s_; }
-    /// The caller's time in the encoder, and that of the threads that x264 started.
+    /// The caller's time in the encoder, and that of the threads that the encoder started.
     double encode_cpu_s() const;
 
   private:
-    int open(const FilmOptions& options, int threads);
+    int open(const FilmChoice& choice, const FilmOptions& options, int threads);
     void send(const AVFrame* frame);
     void receive(const TakePacket& take);
 
@@ -44,11 +49,13 @@ class VideoEncoder {
     CodecPtr context_;
     FramePtr frame_;
     PacketPtr packet_;
-    Yuv420Converter converter_;
+    FrameConverter converter_;
+    std::optional<Vp9Alpha> alpha_;
     std::int64_t frames_ = 0;
+    std::int64_t packets_ = 0;
     double convert_cpu_s_ = 0;
     double caller_cpu_s_ = 0;
-    ForeignThreads x264_threads_;
+    ForeignThreads encoder_threads_;
 };
 
 }  // namespace carom

@@ -240,4 +240,29 @@ std::optional<Node> parse_document(std::string_view text, const std::string& fil
     return root;
 }
 
+namespace {
+
+/// Fowler, Noll and Vo's hash of the bytes of `text` and a 0 behind them.
+void add_text(std::uint64_t& hash, std::string_view text) {
+    constexpr std::uint64_t kPrime = 0x100000001B3;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * kPrime;
+    hash *= kPrime;
+}
+
+void add_node(std::uint64_t& hash, const Node& node) {
+    add_text(hash, node.key);
+    add_text(hash, std::string_view("nslm").substr(static_cast<std::size_t>(node.kind), 1));
+    add_text(hash, node.text);
+    for (const Node& child : node.children) add_node(hash, child);
+    add_text(hash, ".");
+}
+
+}  // namespace
+
+std::uint64_t fingerprint(const Node& node) {
+    std::uint64_t hash = 0xCBF29CE484222325;
+    add_node(hash, node);
+    return hash;
+}
+
 }  // namespace carom

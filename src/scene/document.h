@@ -2,6 +2,7 @@
 // change. The one place that names yaml-cpp is document.cpp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,5 +39,9 @@ inline constexpr int kMaxDocumentDepth = 32;  ///< a scene needs 6; yaml-cpp rec
 /// gives no tree, while a key that stands twice is reported and its first value kept.
 std::optional<Node> parse_document(std::string_view text, const std::string& file,
                                    Diagnostics& diagnostics);
+
+/// A number that tells documents apart (FNV-1a, 64 bits): equal for equal keys and values in equal
+/// order, whatever stands between them in blanks, comments and quotes.
+std::uint64_t fingerprint(const Node& node);
 
 }  // namespace carom

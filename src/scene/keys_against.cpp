@@ -12,7 +12,8 @@ std::vector<KeySpec> against_keys() {
          .forms = kWord,
          .words = {"sky", "transparent"},
          .fallback = "sky",
-         .doc = "`sky`: sky over the surfaces; `transparent`: PNGs with alpha, in which planes are "
+         .doc = "`sky`: sky over the surfaces; `transparent`: pictures with alpha, in which planes "
+                "are "
                 "left out but for the shadows on them.",
          .example = "transparent"},
         {.section = kScene,

@@ -94,6 +94,7 @@ SceneResult read_scene(std::string_view text, const std::string& file,
         validate_section(*root, Section::kScene, table, report);
         Scene scene;
         scene.file = file;
+        scene.fingerprint = fingerprint(*root);
         Build build{table, report, *root, scene};
         build_scene(build);
         if (!report.diagnostics().has_errors()) result.scene = std::move(scene);

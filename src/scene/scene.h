@@ -230,7 +230,8 @@ struct ReboundTest {
 };
 
 struct Scene {
-    std::string file;  ///< as the user named it, for messages
+    std::string file;               ///< as the user named it, for messages
+    std::uint64_t fingerprint = 0;  ///< of the document with what the command line changed in it
     std::string title;
     Simulation simulation;
     std::vector<Material> materials;  ///< [0] is the default: restitution 1, no friction

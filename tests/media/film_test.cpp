@@ -289,7 +289,7 @@ TEST_F(FilmTest, RefusesOptionsThatCannotBe) {
     preset.preset = "veryfats";
     EXPECT_TRUE(contains(refused("a.mp4", preset), "did you mean 'veryfast'"));
     preset.preset = "";
-    EXPECT_TRUE(contains(refused("a.mp4", preset), "x264 has ultrafast, superfast"));
+    EXPECT_TRUE(contains(refused("a.mp4", preset), "H.264 has ultrafast, superfast"));
     FilmOptions crf = small_film();
     crf.crf = 52;
     EXPECT_TRUE(contains(refused("a.mp4", crf), "crf 52"));
@@ -302,8 +302,8 @@ TEST_F(FilmTest, RefusesOptionsThatCannotBe) {
     EXPECT_TRUE(contains(refused("a.mp4", odd), "160x91"));
     EXPECT_TRUE(contains(refused("a.mp4", small_film(0, 1)), "0/1 frames a second"));
     EXPECT_TRUE(contains(refused("a.mp4", small_film(25, -1)), "25/-1"));
-    EXPECT_TRUE(contains(refused("a.avi", small_film()), ".mp4 or .mkv"));
-    EXPECT_TRUE(contains(refused("film", small_film()), ".mp4 or .mkv"));
+    EXPECT_TRUE(contains(refused("a.avi", small_film()), ".mp4, .mkv, .mov"));
+    EXPECT_TRUE(contains(refused("film", small_film()), ".y4m or .raw"));
 }
 
 TEST_F(FilmTest, EveryPresetAndBothEndsOfCrfGiveHighProfile) {

@@ -211,5 +211,44 @@ TEST_F(PngTest, TheSmallEffortIsSmaller) {
     EXPECT_LT(fast, image.bgra.size() / 4);
 }
 
+// Rows that are used again must not show: a frame's bytes follow from its pixels.
+TEST_F(PngTest, AFrameHasTheSameBytesWhateverCameBefore) {
+    std::vector<Image> frames;
+    for (int k = 0; k < 6; ++k) frames.push_back(moving_picture(160, 90, k));
+    frames.push_back(noise_image(160, 90, 1));
+    frames.push_back(frames[5]);
+    frames.push_back(frames[5]);
+    Image clear = frames[5];  // one pixel is seen through, and then no more
+    std::fill_n(clear.row(80), 4, std::uint8_t{0});
+    frames.push_back(clear);
+    frames.push_back(frames[5]);
+    frames.push_back(moving_picture(96, 130, 1));
+    PngEncoder encoder;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        const std::string bytes = encoder.encode(frames[k]);
+        EXPECT_TRUE(bytes == encode_png(frames[k])) << k;
+        std::ofstream(in_folder("f.png"), std::ios::binary) << bytes;
+        EXPECT_TRUE(read_png(in_folder("f.png")) == frames[k]) << k;
+    }
+}
+
+TEST_F(PngTest, SaysItsSizeOnPaperAndTexts) {
+    PngNotes notes;
+    notes.pixels_per_m = 300 / 0.0254;
+    notes.texts = {{"Time", "1.25 s"}, {"Title", "Küche"}};
+    for (const PngEffort effort : {PngEffort::kFast, PngEffort::kSmall}) {
+        const std::string bytes = encode_png(noise_image(16, 16, 1), effort, notes);
+        // 11811 pixels a metre, both ways, in metres.
+        EXPECT_TRUE(contains(bytes, std::string("pHYs\0\0\x2E\x23\0\0\x2E\x23\1", 13)));
+        EXPECT_TRUE(contains(bytes, std::string("tEXtTime\0"
+                                                "1.25 s",
+                                                15)));
+        EXPECT_TRUE(contains(bytes, std::string("iTXtTitle\0\0\0\0\0Küche", 20)));
+        std::ofstream(in_folder("n.png"), std::ios::binary) << bytes;
+        EXPECT_TRUE(read_png(in_folder("n.png")) == noise_image(16, 16, 1));
+    }
+    EXPECT_FALSE(contains(encode_png(noise_image(16, 16, 1)), "pHYs"));
+}
+
 }  // namespace
 }  // namespace carom
