@@ -35,10 +35,9 @@ Vec3 nearby_origin(const Scene& scene) {
     for (const Surface& s : scene.surfaces)
         if (const auto* plane = std::get_if<PlaneShape>(&s.shape))
             extent = std::max(extent, std::abs(plane->normal.dot(middle) - plane->offset_m));
-    Vec3 origin = Vec3::Zero();
-    for (int i = 0; i < 3; ++i)
-        // A float: half of a double's digits are left to what is subtracted from it.
-        if (std::abs(middle[i]) > kFar * extent) origin[i] = static_cast<float>(middle[i]);
+    if (!(middle.cwiseAbs().maxCoeff() > kFar * extent)) return Vec3::Zero();
+    // Floats: half of a double's digits are left to what is subtracted from them.
+    const Vec3 origin = middle.cast<float>().cast<double>();
     return origin.allFinite() ? origin : Vec3::Zero();
 }
 

@@ -8,7 +8,7 @@ namespace carom {
 
 /// The place from which a scene is best seen [m]: zero where its bodies stand about the origin, as
 /// far as their distances go; else the middle of its balls and bounded surfaces, so that what
-/// happens does not drown in the rounding of large coordinates. Axis by axis; coordinates are
+/// happens does not drown in the rounding of large coordinates. Its coordinates are
 /// multiples of a power of two, so that subtracting them loses nothing.
 Vec3 nearby_origin(const Scene& scene);
 

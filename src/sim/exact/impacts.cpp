@@ -32,10 +32,10 @@ std::size_t Impacts::connect(double now) {
 bool Impacts::resolve(std::size_t i, double now) {
     const Contact seed = seeds_.all()[i];
     if (world_.ball(seed.ball).resolved == instant_) return false;
-    cluster_.gather(seed, seeds_, now);
+    const ImpactCluster::Limits limits = gather(seed, now);
     impacts_.clear();
-    const ImpactCluster::Limits limits = islands_.limits_of(cluster_);
     cluster_.resolve(solver_, impacts_, limits);
+    if (in_free_space_) note_series(now);
     const double rounding_speed =
         std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
     log_.add_impacts(impacts_, now);
@@ -45,6 +45,36 @@ bool Impacts::resolve(std::size_t i, double now) {
     }
     aftermath_.settle(cluster_, impacts_, now);
     return true;
+}
+
+/// What hangs on a contact that is met, and when that is resolved.
+ImpactCluster::Limits Impacts::gather(const Contact& seed, double now) {
+    const bool heap = in_free_space_ && seed.restitution < 1 &&
+                      (collapse_.in_heap(seed.ball) ||
+                       (!seed.other.is_surface && collapse_.in_heap(seed.other.index)));
+    if (!heap) {
+        cluster_.gather(seed, seeds_, now);
+        return islands_.limits_of(cluster_);
+    }
+    cluster_.gather_heap(seed, seeds_, CollapseRule::kNear, now);
+    ImpactCluster::Limits limits;
+    if (cluster_.contact_count() == 1) {
+        for (const int ball : cluster_.balls()) collapse_.leave_heap(ball);
+    } else {
+        limits.slow = CollapseRule::kSlow;
+        ++log_.report.collapses;
+    }
+    return limits;
+}
+
+void Impacts::note_series(double now) {
+    for (const int ball : cluster_.balls()) {
+        double fastest = 0;
+        for (const Contact& c : impacts_)
+            if (c.ball == ball || (!c.other.is_surface && c.other.index == ball))
+                fastest = std::max(fastest, c.approach_speed);
+        if (fastest > 0) collapse_.note(ball, world_.ball(ball).radius, fastest, now);
+    }
 }
 
 bool Impacts::is_lossy() const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/exact/aftermath.h"
+#include "sim/group/collapse.h"
 #include "sim/group/impact_cluster.h"
 #include "sim/solve/impact_solver.h"
 
@@ -21,6 +22,8 @@ class Impacts {
           log_(log),
           islands_(islands),
           aftermath_(aftermath),
+          in_free_space_(world.scene.simulation.gravity.isZero(0) || world.scene.surfaces.empty()),
+          collapse_(world.balls.size()),
           cluster_(world),
           seeds_(world.balls.size()) {}
 
@@ -35,8 +38,12 @@ class Impacts {
     const std::vector<int>& balls() const { return cluster_.balls(); }
     /// Whether one of its impacts was of a kind that makes a pile.
     bool is_lossy() const;
+    /// Nothing presses anything anywhere: only there impacts may collapse.
+    bool in_free_space() const { return in_free_space_; }
 
   private:
+    ImpactCluster::Limits gather(const Contact& seed, double now);
+    void note_series(double now);
     bool has_links(int ball) const {
         return has_island(world_.ball(ball).phase()) && !links_.of(ball).empty();
     }
@@ -47,6 +54,8 @@ class Impacts {
     Islands& islands_;
     Aftermath& aftermath_;
     ImpactSolver solver_;
+    bool in_free_space_;
+    CollapseRule collapse_;
     // Members, so that an event allocates nothing once they have grown.
     ImpactCluster cluster_;
     Seeds seeds_;

@@ -102,7 +102,8 @@ void Predictor::look_at_surface(Outlook& out, int surface, double now) const {
     const Nearest nearest = nearest_on(shape, path.position, radius);
     const bool touching =
         stepped ? rules_.in_reach(world_.contact_at(ball, partner, now))
-                : nearest.gap <= world_.touch_tolerance(path.position, nearest.point, radius);
+                : nearest.gap <= world_.touch_tolerance(ball, partner, from, path.position,
+                                                        nearest.point, radius);
     const double separation = touching ? path.velocity.dot(nearest.normal) : 0;
     const double still = kStillFraction * path.velocity.norm() + world_.ball(ball).rounding_speed;
     TimeOfImpact toi{ImpactState::kHit, 0};
@@ -174,7 +175,8 @@ void Predictor::look_at_ball(Outlook& out, int other, double now) const {
     const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
     const Path path = path_a.relative_to(path_b);
     const double sum = world_.ball(ball).radius + world_.ball(other).radius;
-    const double reach = sum + world_.touch_tolerance(path_a.position, path_b.position, sum);
+    const double reach =
+        sum + world_.touch_tolerance(ball, partner, from, path_a.position, path_b.position, sum);
     const double distance2 = path.position.squaredNorm();
     const double closing = path.position.dot(path.velocity);
     const bool touching = stepped ? rules_.in_reach(world_.contact_at(ball, partner, now))

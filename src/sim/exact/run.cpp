@@ -62,7 +62,7 @@ SimulationResult ExactRun::finish() {
     SimulationReport& report = log_.report;
     report.effects = effects_of(scene, world_.pairs);
     report.effects["pairs"] = {can_collide_.possible, can_collide_.why};
-    add_contact_effects(report);
+    add_contact_effects(report, impacts_.in_free_space());
     return {std::move(motion), std::move(report)};
 }
 

@@ -108,6 +108,16 @@ void ImpactCluster::add_new(const Contact& contact) {
 }
 
 void ImpactCluster::gather(const Contact& seed, const Seeds& seeds, double time) {
+    near_ = 0;
+    grow(seed, seeds, time);
+}
+
+void ImpactCluster::gather_heap(const Contact& seed, const Seeds& seeds, double near, double time) {
+    near_ = near;
+    grow(seed, seeds, time);
+}
+
+void ImpactCluster::grow(const Contact& seed, const Seeds& seeds, double time) {
     for (const int ball : balls_) place_[static_cast<std::size_t>(ball)] = -1;
     balls_.clear();
     bodies_.clear();
@@ -134,16 +144,22 @@ void ImpactCluster::gather(const Contact& seed, const Seeds& seeds, double time)
     }
 }
 
+/// `size`: of the smaller radius, m.
+bool ImpactCluster::meets(const Contact& contact, double size) const {
+    return -contact.depth <= near_ * size || world_.touches(contact, time_);
+}
+
 void ImpactCluster::touch_surfaces(int ball) {
     const Vec3 x = bodies_[index_of(ball)].position;
     const double radius = world_.ball(ball).radius;
-    const double far = kFar * (radius + x.cwiseAbs().maxCoeff()) + world_.place_rounding;
+    const double far =
+        kFar * (radius + x.cwiseAbs().maxCoeff()) + world_.place_rounding + near_ * radius;
     world_.for_each_surface_near(ball, x, radius + far, [&](int s) {
         if (is_known(ball, {true, s})) return;
         // Far surfaces are the common case, as far balls are below.
         if (nearest_on(world_.surface(s).shape, x, radius).gap > far) return;
         const Contact contact = world_.contact_at(ball, {true, s}, time_);
-        if (world_.touches(contact, time_)) add(contact);
+        if (meets(contact, radius)) add(contact);
     });
 }
 
@@ -159,7 +175,7 @@ void ImpactCluster::touch_balls(int ball) {
         const Vec3 y = world_.position(other, time_);
         if ((x - y).squaredNorm() > reach * reach + 1e-9 * x.squaredNorm()) return;
         const Contact contact = world_.contact_at(ball, {false, other}, time_);
-        if (world_.touches(contact, time_)) add_new(contact);
+        if (meets(contact, std::min(radius, world_.ball(other).radius))) add_new(contact);
     });
 }
 
@@ -213,17 +229,25 @@ void ImpactCluster::solve(ImpactSolver& solver, bool inelastic, double enough,
         bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
         const SolverContact& solved = solver_contacts_[k];
-        if (int& entry = impact_of_[chosen_[k]]; entry >= 0) {
-            Contact& impact = impacts[static_cast<std::size_t>(entry)];
-            impact.impulse += solved.impulse;
-            impact.tangential_impulse += solved.tangential_impulse;
-        } else if (solved.approach_speed > enough) {
-            entry = static_cast<int>(impacts.size());
-            const Contact& met = contacts_[chosen_[k]];
-            impacts.push_back({solved, met.ball, met.other});
-            impacts.back().impact = true;
-        }
+        if (impact_of_[chosen_[k]] >= 0 || solved.approach_speed > enough ||
+            (inelastic && solved.impulse > 0))
+            note_impulse(chosen_[k], solved, impacts);
     }
+}
+
+/// Adds what a contact took to its impact, which begins with the first.
+void ImpactCluster::note_impulse(std::size_t contact, const SolverContact& solved,
+                                 std::vector<Contact>& impacts) {
+    int& entry = impact_of_[contact];
+    if (entry >= 0) {
+        Contact& impact = impacts[static_cast<std::size_t>(entry)];
+        impact.impulse += solved.impulse;
+        impact.tangential_impulse += solved.tangential_impulse;
+        return;
+    }
+    entry = static_cast<int>(impacts.size());
+    impacts.push_back({solved, contacts_[contact].ball, contacts_[contact].other});
+    impacts.back().impact = true;
 }
 
 void ImpactCluster::end_impacts(std::vector<Contact>& impacts) {
@@ -251,6 +275,25 @@ void ImpactCluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& i
     impacts.back().separation_speed = std::max(solved.separation_speed, 0.0);
 }
 
+/// Of all contacts; and which are each ball's.
+void ImpactCluster::find_speeds() {
+    speeds_.clear();
+    of_ball_.resize(balls_.size());
+    for (std::vector<std::size_t>& list : of_ball_) list.clear();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const Contact& c = contacts_[i];
+        speeds_.push_back(approach(c));
+        of_ball_[index_of(c.ball)].push_back(i);
+        if (!c.other.is_surface) of_ball_[index_of(c.other.index)].push_back(i);
+    }
+}
+
+/// After a round: of the balls that took part in it.
+void ImpactCluster::update_speeds() {
+    for (const std::size_t ball : here_)
+        for (const std::size_t i : of_ball_[ball]) speeds_[i] = approach(contacts_[i]);
+}
+
 /// Rounds that suffice for whatever ends: a chain of n balls needs about n, and a ball between a
 /// wall and another of mass ratio r about pi sqrt(r) (G. Galperin, "Playing pool with the number
 /// pi", 2003), or, where each loses a part of the speed, some ten times as many until what is left
@@ -273,14 +316,13 @@ void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
         return;
     }
     impact_of_.assign(contacts_.size(), -1);
+    find_speeds();
     const std::size_t rounds = limits.rounds > 0 ? limits.rounds : rounds_to_end();
     for (std::size_t round = 0;; ++round) {
-        speeds_.clear();
-        for (const Contact& c : contacts_) speeds_.push_back(approach(c));
         const double largest = *std::max_element(speeds_.begin(), speeds_.end());
         if (round == 0) first_approach_ = largest;
-        const double enough =
-            std::max({kResolved * first_approach_, kRounding * largest_speed_, limits.enough});
+        const double enough = std::max({std::max(kResolved, limits.slow) * first_approach_,
+                                        kRounding * largest_speed_, limits.enough});
         if (!(largest > enough)) break;
         const bool last = round > rounds + contacts_.size();
         if (last && limits.enough > 0) {
@@ -290,8 +332,22 @@ void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
         choose(last ? -std::numeric_limits<double>::infinity() : largest * (1 - kEqual));
         solve(solver, last, enough, impacts);
         if (last) break;
+        update_speeds();
     }
+    if (limits.slow > 0) press_rest(solver, impacts);
     end_impacts(impacts);
+}
+
+/// All contacts at once, none of which rebounds.
+void ImpactCluster::press_rest(ImpactSolver& solver, std::vector<Contact>& impacts) {
+    find_speeds();
+    choose(-std::numeric_limits<double>::infinity());
+    for (Contact& c : solver_contacts_) c.restitution = 0;
+    solver.solve(solver_bodies_, solver_contacts_, time_);
+    for (std::size_t k = 0; k < here_.size(); ++k)
+        bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
+    for (std::size_t k = 0; k < chosen_.size(); ++k)
+        if (solver_contacts_[k].impulse > 0) note_impulse(chosen_[k], solver_contacts_[k], impacts);
 }
 
 void ImpactCluster::contacts_of(int ball, std::vector<Contact>& result) const {

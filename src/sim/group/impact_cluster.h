@@ -47,6 +47,8 @@ class ImpactCluster {
     /// Grown from one of the contacts that are known to be met now, whatever rounding says of their
     /// gaps; the other `seeds` belong to it where they share a ball with it.
     void gather(const Contact& seed, const Seeds& seeds, double time);
+    /// The same of what hangs together over gaps of at most `near` of a radius.
+    void gather_heap(const Contact& seed, const Seeds& seeds, double near, double time);
 
     /// When a cluster is resolved before nothing approaches any more. Inelastic collapse would need
     /// infinitely many rounds.
@@ -55,6 +57,8 @@ class ImpactCluster {
         double enough = 0;
         /// Before what is left is solved as one inelastic contact; 0 for rounds_to_end().
         std::size_t rounds = 0;
+        /// Of the first approach: what is slower does not rebound, and is solved at once.
+        double slow = 0;
     };
 
     /// Solves until nothing approaches any more. `impacts` gets one entry per pair that met: how
@@ -75,7 +79,9 @@ class ImpactCluster {
   private:
     std::size_t index_of(int ball) const;
     bool has(int ball) const { return place_[static_cast<std::size_t>(ball)] >= 0; }
+    void grow(const Contact& seed, const Seeds& seeds, double time);
     void add(const Contact& contact);
+    bool meets(const Contact& contact, double size) const;
     bool is_known(int ball, const Partner& other) const;
     void add_new(const Contact& contact);
     void press_together();
@@ -85,13 +91,19 @@ class ImpactCluster {
     double approach(const Contact& contact) const;
     SolverContact under_own_numbers(const Contact& contact) const;
     std::size_t rounds_to_end() const;
+    void find_speeds();
+    void update_speeds();
     void choose(double slowest);
     void solve(ImpactSolver& solver, bool inelastic, double enough, std::vector<Contact>& impacts);
+    void note_impulse(std::size_t contact, const SolverContact& solved,
+                      std::vector<Contact>& impacts);
+    void press_rest(ImpactSolver& solver, std::vector<Contact>& impacts);
     void resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits);
     void end_impacts(std::vector<Contact>& impacts);
 
     ExactWorld& world_;
     double time_ = 0;
+    double near_ = 0;         ///< of a radius: wider gaps are none of a contact; 0 for rounding
     std::vector<int> balls_;  ///< in the order found
     std::vector<ImpactBody> bodies_;
     std::vector<Contact> contacts_;
@@ -103,6 +115,7 @@ class ImpactCluster {
     std::vector<int> impact_of_;  ///< per contact: its entry among the impacts, or -1
     // Of one round: what the solver gets, and which contact each entry was.
     std::vector<double> speeds_;
+    std::vector<std::vector<std::size_t>> of_ball_;  ///< contacts, by ball of the cluster
     std::vector<std::size_t> chosen_;
     std::vector<int> number_;  ///< per ball of the cluster: its number for the solver, or -1
     std::vector<std::size_t> here_;

@@ -10,9 +10,11 @@ namespace carom {
 
 namespace {
 
-/// A bouncing series ends when its next hop is lower than this fraction of the ball's radius, or of
-/// its distance from the origin if that is larger: below it the hop drowns in the place's rounding.
+/// A bouncing series ends when its next hop is lower than this fraction of the ball's radius, or
+/// than so many roundings of its place: a length of the scene where that can be, so that the motion
+/// does not depend on where the coordinates begin.
 constexpr double kLastHop = 1e-12;
+constexpr double kLastRoundings = 16 * std::numeric_limits<double>::epsilon();
 
 /// Two bodies of an island that is integrated touch up to this gap, as a fraction of the smaller
 /// radius: a hundred times the error of a piece.
@@ -24,7 +26,8 @@ constexpr double kBalanced = 1e-11;
 }  // namespace
 
 double ContactRules::hop_limit(int ball, const Vec3& position) const {
-    return kLastHop * std::max(world_.ball(ball).radius, position.cwiseAbs().maxCoeff());
+    return std::max(kLastHop * world_.ball(ball).radius,
+                    kLastRoundings * position.cwiseAbs().maxCoeff());
 }
 
 double ContactRules::pressing_gravity(const Vec3& normal) const {

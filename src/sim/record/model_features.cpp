@@ -39,13 +39,21 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
     return effects;
 }
 
-void add_contact_effects(SimulationReport& report) {
+void add_contact_effects(SimulationReport& report, bool in_free_space) {
     report.effects["islands"] =
         report.integrated + report.steps > 0
             ? Effect{true, fmt::format("contacts act on each other: {} pieces integrated, {} steps "
                                        "of ODE",
                                        report.integrated, report.steps)}
             : Effect{false, "no two lasting contacts of a ball at the same time"};
+    report.effects["collapse"] =
+        report.collapses > 0
+            ? Effect{true, fmt::format("{} impacts on balls that had met others ever more often "
+                                       "went through all that touched them at once, and did not "
+                                       "rebound where they were 1000 times slower than at first",
+                                       report.collapses)}
+            : Effect{false, in_free_space ? "no ball met others ever more often"
+                                          : "gravity presses on what comes to rest"};
     report.effects["last_resort"] =
         report.given_up > 0
             ? Effect{true, fmt::format("{} times a contact that could not be integrated, or whose "

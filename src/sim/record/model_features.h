@@ -13,8 +13,9 @@ namespace carom {
 /// gravity, surfaces, pairs (ball against ball), friction, spin; each with the reason.
 std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pairs);
 
-/// Adds islands (contacts that act on each other) and last_resort (contacts that were given up on),
-/// from the counts of the report.
-void add_contact_effects(SimulationReport& report);
+/// Adds islands (contacts that act on each other), collapse (impacts on heaps that nothing presses
+/// together, which are looked for in free space only) and last_resort (contacts that were given up
+/// on), from the counts of the report.
+void add_contact_effects(SimulationReport& report, bool in_free_space);
 
 }  // namespace carom

@@ -23,6 +23,16 @@ Vec3 ContactRow::speed() const {
                              other != nullptr ? other->velocities : Velocities{});
 }
 
+void ContactRow::push_along(double impulse) const {
+    ball->velocities.linear += impulse / ball->mass * contact->normal;
+    if (other != nullptr) other->velocities.linear -= impulse / other->mass * contact->normal;
+}
+
+double ContactRow::speed_along() const {
+    const Vec3& v = ball->velocities.linear;
+    return (other != nullptr ? Vec3(v - other->velocities.linear) : v).dot(contact->normal);
+}
+
 void ContactRow::push(const Vec3& impulse) const {
     ball->velocities.linear += impulse / ball->mass;
     ball->velocities.spin += contact->arm.cross(impulse) / ball->inertia;
@@ -45,10 +55,10 @@ void ContactRow::start_from(const Vec3& impulse) {
 
 double ContactRow::relax() {
     const Vec3& n = contact->normal;
-    const double wanted = normal + (target - speed().dot(n)) * normal_mass;
+    const double wanted = normal + (target - speed_along()) * normal_mass;
     const double change = std::max(wanted, 0.0) - normal;
     normal += change;
-    if (change != 0) push(change * n);
+    if (change != 0) push_along(change);
     const double moved = std::abs(change) / normal_mass;
     if (!(contact->friction > 0)) return moved;
 

@@ -25,6 +25,9 @@ struct ContactRow {
 
     /// Velocity of the ball's material point over the other's, m/s.
     Vec3 speed() const;
+    /// The part along the normal, m/s: of a ball, spin has none.
+    double speed_along() const;
+    void push_along(double impulse) const;
     void push(const Vec3& impulse) const;
     /// The tangential impulse that friction allows of a wanted one.
     Vec3 within_cone(const Vec3& wanted) const;

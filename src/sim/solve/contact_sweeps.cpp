@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "sim/solve/contact_rows.h"
@@ -40,6 +41,33 @@ struct ContactRows {
     double relax(std::size_t i) { return all[i].relax(); }
 };
 
+/// The same, where a row that was right stays so until one of its bodies changes.
+class ImpactRows {
+  public:
+    ImpactRows(ContactRows& rows, const std::vector<SolverContact>& contacts, std::size_t bodies)
+        : rows_(rows), contacts_(contacts), changed_(bodies, 0), right_(contacts.size(), -1) {}
+
+    std::size_t size() const { return rows_.size(); }
+    double relax(std::size_t i) {
+        const SolverContact& c = contacts_[i];
+        std::int64_t& of_body = changed_[static_cast<std::size_t>(c.body)];
+        std::int64_t& of_other =
+            c.on_surface() ? of_body : changed_[static_cast<std::size_t>(c.other_body)];
+        if (right_[i] >= std::max(of_body, of_other)) return 0;
+        const double moved = rows_.relax(i);
+        right_[i] = ++clock_;
+        if (moved == 0) return 0;
+        of_body = of_other = ++clock_;
+        return moved;
+    }
+
+  private:
+    ContactRows& rows_;
+    const std::vector<SolverContact>& contacts_;
+    std::vector<std::int64_t> changed_, right_;  ///< per body, per row: by the clock
+    std::int64_t clock_ = 0;
+};
+
 }  // namespace
 
 double fastest_centre(const std::vector<ImpactBody>& bodies) {
@@ -59,7 +87,8 @@ void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<SolverCo
     const double rounding = kSpeedRounding * fastest_centre(bodies);
     double least = std::numeric_limits<double>::infinity();
     int idle = 0;
-    gauss_seidel(rows, SweepOrder::kForward, kMostSweeps, [&](double moved) {
+    ImpactRows impacts(rows, contacts, bodies.size());
+    gauss_seidel(impacts, SweepOrder::kForward, kMostSweeps, [&](double moved) {
         idle = moved < least ? 0 : idle + 1;
         least = std::min(least, moved);
         if (moved <= std::max(kConverged * scale, rounding)) return true;

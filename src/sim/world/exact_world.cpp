@@ -120,9 +120,8 @@ std::string ExactWorld::name(const Partner& partner) const {
     return partner.is_surface ? surface(partner.index).name : body(partner.index).name;
 }
 
-double ExactWorld::touch_tolerance(const Vec3& a, const Vec3& b, double size) const {
-    return place_rounding +
-           kTouchRounding * (a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() + size);
+double ExactWorld::motion_tolerance(const Vec3& a, const Vec3& b, double size) {
+    return kTouchRounding * (a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() + size);
 }
 
 Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {
@@ -163,9 +162,11 @@ void ExactWorld::set_pair(Contact& c, int material) const {
 
 bool ExactWorld::touches(const Contact& c, double t) const {
     const Vec3 a = position(c.ball, t);
-    if (c.other.is_surface) return -c.depth <= touch_tolerance(a, c.point, ball(c.ball).radius);
-    const double size = ball(c.ball).radius + ball(c.other.index).radius;
-    return -c.depth <= touch_tolerance(a, position(c.other.index, t), size);
+    const double radius = ball(c.ball).radius;
+    if (c.other.is_surface)
+        return -c.depth <= touch_tolerance(c.ball, c.other, t, a, c.point, radius);
+    return -c.depth <= touch_tolerance(c.ball, c.other, t, a, position(c.other.index, t),
+                                       radius + ball(c.other.index).radius);
 }
 
 }  // namespace carom

@@ -29,8 +29,21 @@ class ExactWorld : public ExactBalls {
     std::string name(const Partner& partner) const;
 
     double place_rounding = 0;  ///< m: of the places that the scene came with (ExactOptions)
-    /// Two things touch when their gap is not above the rounding of their places.
-    double touch_tolerance(const Vec3& a, const Vec3& b, double size) const;
+    /// Two things touch when their gap is not above the rounding of their places: that of the
+    /// scene's own, and ...
+    double touch_tolerance(const Vec3& a, const Vec3& b, double size) const {
+        return place_rounding + motion_tolerance(a, b, size);
+    }
+    /// ... that of places which the motion itself has led to, m.
+    static double motion_tolerance(const Vec3& a, const Vec3& b, double size);
+    /// Which of the two counts for ball i and a partner at t: of what has not moved since the start
+    /// the scene's own places are all that is known.
+    double touch_tolerance(int i, const Partner& partner, double t, const Vec3& a, const Vec3& b,
+                           double size) const {
+        const bool as_placed = is_as_placed(i, t) &&
+                               (partner.is_surface || is_as_placed(partner.index, t));
+        return (as_placed ? place_rounding : 0) + motion_tolerance(a, b, size);
+    }
     /// The contact of ball i with a partner at t, as geometry has it; of two balls, the scene's
     /// first one is `ball`.
     Contact contact_at(int i, const Partner& partner, double t) const;
@@ -110,6 +123,10 @@ class ExactWorld : public ExactBalls {
     }
 
   private:
+    bool is_as_placed(int i, double t) const {
+        const Piece& p = ball(i).piece;
+        return t == 0 || (p.start == 0 && p.velocity.isZero(0) && p.acceleration.isZero(0));
+    }
     std::vector<int>& next_surface_list() const {
         at_surface_list_ = (at_surface_list_ + 1) % surface_lists_.size();
         surface_lists_[at_surface_list_].clear();
