@@ -31,6 +31,10 @@ SurfaceShape moved(const CapsuleShape& capsule, const Transform& t) {
     return CapsuleShape{t.place(capsule.from), t.place(capsule.to), capsule.radius};
 }
 
+SurfaceShape moved(const CylinderShape& cylinder, const Transform& t) {
+    return CylinderShape{t.place(cylinder.from), t.place(cylinder.to), cylinder.radius};
+}
+
 /// Changes last digits.
 class Nudge {
   public:
@@ -65,6 +69,10 @@ class Nudge {
     SurfaceShape shape(const CapsuleShape& capsule) {
         const Vec3 from = place(capsule.from);
         return CapsuleShape{from, place(capsule.to), capsule.radius};
+    }
+    SurfaceShape shape(const CylinderShape& cylinder) {
+        const Vec3 from = place(cylinder.from);
+        return CylinderShape{from, place(cylinder.to), cylinder.radius};
     }
 
   private:

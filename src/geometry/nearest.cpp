@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/around_axis.h"
+
 namespace carom {
 
 namespace {
@@ -53,6 +55,28 @@ Nearest nearest_on(const SphereShape& sphere, const Vec3& center, double radius)
 Nearest nearest_on(const CapsuleShape& capsule, const Vec3& center, double radius) {
     const Vec3 core = nearest_on_segment(center, capsule.from, capsule.to);
     return nearest_around(core, capsule.radius, center, radius);
+}
+
+Nearest nearest_on(const CylinderShape& cylinder, const Vec3& center, double radius) {
+    const Vec3 whole = cylinder.to - cylinder.from;
+    const double half = 0.5 * whole.norm();
+    const Vec3 axis = whole / (2 * half);
+    const AroundAxis at(0.5 * (cylinder.from + cylinder.to), axis, center);
+    const double side = at.along < 0 ? -1 : 1;
+    const double beyond = side * at.along - half, out = at.away - cylinder.radius;
+    double distance = 0;
+    Vec3 normal;
+    if (out <= 0 && beyond > out) {  // an end, also from within
+        distance = beyond;
+        normal = side * axis;
+    } else if (beyond <= 0) {  // the shaft
+        distance = out;
+        normal = at.outward;
+    } else {  // a rim
+        distance = std::hypot(beyond, out);
+        normal = (side * beyond / distance) * axis + (out / distance) * at.outward;
+    }
+    return {distance - radius, normal, center - distance * normal};
 }
 
 Nearest nearest_on(const SurfaceShape& shape, const Vec3& center, double radius) {

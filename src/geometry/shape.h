@@ -44,7 +44,16 @@ struct CapsuleShape {
     bool operator==(const CapsuleShape&) const = default;
 };
 
-using SurfaceShape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape>;
+/// A solid cylinder with flat ends, whose edges are circles.
+struct CylinderShape {
+    Vec3 from = Vec3::Zero();  ///< middle of one end
+    Vec3 to = Vec3::UnitX();   ///< middle of the other
+    double radius = 0.1;       ///< m
+
+    bool operator==(const CylinderShape&) const = default;
+};
+
+using SurfaceShape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, CylinderShape>;
 
 /// Of a set of lambdas, one overloaded function for std::visit.
 template <class... Cases>
@@ -59,7 +68,8 @@ inline bool is_unbounded(const SurfaceShape& shape) {
     return std::visit(
         PerShape{[](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
                  [](const SphereShape&) { return false; },
-                 [](const CapsuleShape&) { return false; }},
+                 [](const CapsuleShape&) { return false; },
+                 [](const CylinderShape&) { return false; }},
         shape);
 }
 

@@ -37,6 +37,10 @@ SurfaceShape moved(const CapsuleShape& capsule, const Vec3& origin) {
     return CapsuleShape{capsule.from - origin, capsule.to - origin, capsule.radius};
 }
 
+SurfaceShape moved(const CylinderShape& cylinder, const Vec3& origin) {
+    return CylinderShape{cylinder.from - origin, cylinder.to - origin, cylinder.radius};
+}
+
 }  // namespace
 
 SurfaceShape seen_from(const SurfaceShape& shape, const Vec3& origin) {

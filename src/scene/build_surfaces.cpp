@@ -80,6 +80,17 @@ ReadShape read_capsule(Build& build, const Fields& fields, const Node& node) {
     return {capsule, node.valid};
 }
 
+ReadShape read_cylinder(Build& build, const Fields& fields, const Node& node) {
+    if (!fields.has("from") || !fields.has("to")) return {CylinderShape{}, false};
+    const CylinderShape cylinder{fields.vec3("from"), fields.vec3("to"),
+                                 fields.maybe_number("radius").value_or(1)};
+    if ((cylinder.to - cylinder.from).norm() < kShortest) {
+        build.report.error(*fields.find("to"), "the cylinder's 'from' and 'to' are the same point");
+        return {cylinder, false};
+    }
+    return {cylinder, node.valid};
+}
+
 ReadShape read_shape(Build& build, const Node& surface) {
     const Fields fields = build.fields(Section::kSurface, &surface);
     if (const Node* node = surface.find("plane"))
@@ -89,6 +100,8 @@ ReadShape read_shape(Build& build, const Node& surface) {
         return read_sphere(fields.child("sphere"), *node);
     if (const Node* node = surface.find("capsule"))
         return read_capsule(build, fields.child("capsule"), *node);
+    if (const Node* node = surface.find("cylinder"))
+        return read_cylinder(build, fields.child("cylinder"), *node);
     return {PlaneShape{}, false};
 }
 
@@ -108,7 +121,7 @@ void build_surfaces(Build& build) {
         const Node* look = fields.find("look");
         surface.look = look == nullptr ? -1 : resolve_look(build, *look);
         if (surface.look < 0)
-            surface.look = std::holds_alternative<PlaneShape>(surface.shape)
+            surface.look = is_unbounded(surface.shape)
                                ? default_look(build, "planes", default_plane_look())
                                : default_look(build, "solids", default_solid_look());
         build.scene.surfaces.push_back(std::move(surface));

@@ -24,6 +24,7 @@ enum class Section {
     kBox,
     kSphere,
     kCapsule,
+    kCylinder,
     kDefaults,
     kBallDefaults,  ///< the rows of kBall that have `in_defaults`
     kBall,

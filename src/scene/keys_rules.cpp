@@ -9,7 +9,7 @@ std::vector<Rule> key_rules() {
         {kMaterial, Rule::Kind::kAtMostOne, {"restitution", "virtual_body"}},
         {kVirtualBody, Rule::Kind::kAboveZeroWith, {"distance", "velocity"}},
         {kPair, Rule::Kind::kAtLeastOne, {"restitution", "friction"}},
-        {kSurface, Rule::Kind::kExactlyOne, {"plane", "box", "sphere", "capsule"}},
+        {kSurface, Rule::Kind::kExactlyOne, {"plane", "box", "sphere", "capsule", "cylinder"}},
         {kBox, Rule::Kind::kAtMostOne, {"rotation_deg", "quaternion"}},
         {kCamera, Rule::Kind::kExactlyOne, {"from", "path"}},
         {kCamera, Rule::Kind::kExactlyOne, {"to", "path"}},
@@ -44,6 +44,8 @@ std::vector<SectionDoc> section_docs() {
         {kBox, "box", "surfaces[].box", "A solid box."},
         {kSphere, "sphere", "surfaces[].sphere", "A solid sphere."},
         {kCapsule, "capsule", "surfaces[].capsule", "All points within `radius` of a segment."},
+        {kCylinder, "cylinder", "surfaces[].cylinder",
+         "A solid cylinder with flat ends; balls meet its rims as edges."},
         {kDefaults, "defaults", "defaults", "What fills in for values that are left out."},
         {kBallDefaults, "ball_defaults", "defaults.ball",
          "Fills what a ball, and the preset that the ball names, leave out. The keys are those of "

@@ -1,5 +1,6 @@
 #include "sim/fixed/ode_world.h"
 
+#include "sim/fixed/surface_geom.h"
 #include "sim/solve/ode_messages.h"
 
 namespace carom {
@@ -39,6 +40,10 @@ dGeomID make_geom(dSpaceID space, const CapsuleShape& capsule) {
     const Quat turn = axis.isZero(0) ? Quat::Identity() : Quat::FromTwoVectors(Vec3::UnitZ(), axis);
     set_pose(geom, 0.5 * (capsule.from + capsule.to), turn);
     return geom;
+}
+
+dGeomID make_geom(dSpaceID space, const CylinderShape& cylinder) {
+    return make_surface_geom(space, cylinder);
 }
 
 OdeSpacePtr make_ball_space(std::size_t balls) {
