@@ -59,6 +59,9 @@ Placed place(const CylinderShape& cylinder) {
             btTransform(to_bullet(turn), to_bullet(Vec3(0.5 * (cylinder.from + cylinder.to))))};
 }
 
+/// Bullet has no torus; no case has one.
+Placed place(const RingShape&) { throw std::invalid_argument("Bullet has no ring"); }
+
 // Bullet's hook for pairs: each object carries the table and its material.
 PairProperties pair_of(const btCollisionObject* a, const btCollisionObject* b) {
     const auto* table = static_cast<const PairTable*>(a->getUserPointer());

@@ -68,7 +68,9 @@ void add_planes(Scene& scene, Draw& draw) {
 /// One of the shapes with round edges.
 SurfaceShape rimmed_shape(const Vec3& at, Draw& draw) {
     const Vec3 axis = draw.chance(0.4) ? Vec3(Vec3::Unit(draw.integer(0, 2))) : draw.direction();
-    return CylinderShape{at, at + draw.log_uniform(0.01, 1.5) * axis, draw.log_uniform(0.03, 0.8)};
+    const double radius = draw.log_uniform(0.03, 0.8);
+    if (draw.chance(0.5)) return RingShape{at, axis, radius, radius * draw.log_uniform(0.01, 0.9)};
+    return CylinderShape{at, at + draw.log_uniform(0.01, 1.5) * axis, radius};
 }
 
 void add_rimmed_bodies(Scene& scene, Draw& draw) {
@@ -122,8 +124,12 @@ struct MoveOnto {
     }
     Vec3 operator()(const BoxShape&) const { return ball.position; }
     Vec3 operator()(const CapsuleShape&) const { return ball.position; }
-    Vec3 operator()(const CylinderShape& cylinder) const {
-        const Nearest nearest = nearest_on(cylinder, ball.position, ball.radius);
+    Vec3 operator()(const CylinderShape& cylinder) const { return moved_onto(cylinder); }
+    Vec3 operator()(const RingShape& ring) const { return moved_onto(ring); }
+
+    template <class Shape>
+    Vec3 moved_onto(const Shape& shape) const {
+        const Nearest nearest = nearest_on(shape, ball.position, ball.radius);
         return ball.position - nearest.gap * nearest.normal;
     }
 };

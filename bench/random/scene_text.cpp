@@ -37,6 +37,11 @@ std::string shape_text(const CylinderShape& cylinder) {
                        text(cylinder.to), cylinder.radius);
 }
 
+std::string shape_text(const RingShape& ring) {
+    return fmt::format("ring: {{position: {}, axis: {}, radius: {}, tube_radius: {}}}",
+                       text(ring.center), text(ring.axis), ring.radius, ring.tube_radius);
+}
+
 std::string materials_text(const Scene& scene) {
     std::string all;
     for (std::size_t i = 1; i < scene.materials.size(); ++i) {

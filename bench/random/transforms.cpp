@@ -35,6 +35,10 @@ SurfaceShape moved(const CylinderShape& cylinder, const Transform& t) {
     return CylinderShape{t.place(cylinder.from), t.place(cylinder.to), cylinder.radius};
 }
 
+SurfaceShape moved(const RingShape& ring, const Transform& t) {
+    return RingShape{t.place(ring.center), t.linear * ring.axis, ring.radius, ring.tube_radius};
+}
+
 /// Changes last digits.
 class Nudge {
   public:
@@ -73,6 +77,10 @@ class Nudge {
     SurfaceShape shape(const CylinderShape& cylinder) {
         const Vec3 from = place(cylinder.from);
         return CylinderShape{from, place(cylinder.to), cylinder.radius};
+    }
+    SurfaceShape shape(const RingShape& ring) {
+        const Vec3 center = place(ring.center);
+        return RingShape{center, vector(ring.axis).normalized(), ring.radius, ring.tube_radius};
     }
 
   private:

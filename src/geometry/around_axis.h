@@ -5,6 +5,10 @@
 
 namespace carom {
 
+/// A ball whose centre is no farther from the axis of a hole than this part of the hole's radius is
+/// in its middle: some thousand roundings.
+inline constexpr double kCentred = 1e-12;
+
 struct AroundAxis {
     double along = 0;  ///< m, from the origin along the axis
     double away = 0;   ///< m, from the axis

@@ -34,6 +34,11 @@ Box3 around(const CylinderShape& cylinder) {
     return {cylinder.from.cwiseMin(cylinder.to) - r, cylinder.from.cwiseMax(cylinder.to) + r};
 }
 
+Box3 around(const RingShape& ring) {
+    const Vec3 r = ring.radius * reach_across(ring.axis) + Vec3::Constant(ring.tube_radius);
+    return {ring.center - r, ring.center + r};
+}
+
 SphereAround ball_around(const PlaneShape&) {
     return {Vec3::Zero(), std::numeric_limits<double>::infinity()};
 }
@@ -46,6 +51,9 @@ SphereAround ball_around(const CapsuleShape& capsule) {
 SphereAround ball_around(const CylinderShape& cylinder) {
     return {0.5 * (cylinder.from + cylinder.to),
             std::hypot(0.5 * (cylinder.to - cylinder.from).norm(), cylinder.radius)};
+}
+SphereAround ball_around(const RingShape& ring) {
+    return {ring.center, ring.radius + ring.tube_radius};
 }
 
 }  // namespace

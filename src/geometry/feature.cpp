@@ -93,6 +93,28 @@ Feature circle_feature(const Vec3& middle, const Vec3& axis, double core_radius,
     return f;
 }
 
+/// The same for a ball at x, of which the circle's hole may hold a part: a ball in the middle of a
+/// hole that is too small for it touches it all around, which holds it along the axis and across.
+Feature circle_or_seat(const Vec3& middle, const Vec3& axis, double core_radius, double distance,
+                       const Vec3& x, double radius) {
+    Feature f = circle_feature(middle, axis, core_radius, distance);
+    if (distance <= core_radius) return f;
+    const AroundAxis at(middle, axis, x);
+    const double centred = kCentred * core_radius;
+    if (at.away > centred) {
+        f.add_round_border(middle, axis, centred, 1);
+        return f;
+    }
+    const double height = std::sqrt((distance - core_radius) * (distance + core_radius));
+    Feature seat;
+    seat.origin = middle + (at.along < 0 ? -1 : 1) * (height - radius) * axis;
+    seat.across = axis * axis.transpose();
+    seat.distance = radius;
+    seat.hold = core_radius / height;
+    seat.add_round_border(middle, axis, centred, -1);
+    return seat;
+}
+
 /// How a centre moves away from an axis. A centre that goes by `around` [m/s] about the axis is
 /// drawn outwards as if pulled by around^2 / away.
 AxisMotion motion_away(const AroundAxis& at, const Vec3& axis, const CenterMotion& center) {
@@ -144,12 +166,18 @@ Feature feature_of(const CylinderShape& cylinder, const CenterMotion& center, do
     return f;
 }
 
+Feature feature_of(const RingShape& ring, const CenterMotion& center, double radius) {
+    return circle_or_seat(ring.center, ring.axis, ring.radius, radius + ring.tube_radius, center.x,
+                          radius);
+}
+
 bool has_flat(const PlaneShape&, const Vec3&) { return true; }
 bool has_flat(const SphereShape&, const Vec3&) { return false; }
 bool has_flat(const CapsuleShape&, const Vec3&) { return false; }
 bool has_flat(const CylinderShape& cylinder, const Vec3& normal) {
     return std::abs((cylinder.to - cylinder.from).normalized().dot(normal)) > 1 - 1e-12;
 }
+bool has_flat(const RingShape&, const Vec3&) { return false; }
 bool has_flat(const BoxShape& box, const Vec3& normal) {
     const Vec3 local = box.orientation.conjugate() * normal;
     return local.cwiseAbs().maxCoeff() > 1 - 1e-12;
@@ -171,7 +199,7 @@ Vec3 Feature::from_core(const Vec3& x) const {
 
 double Feature::gap_growth(const Vec3& x, const Vec3& way) const {
     const Vec3 q = from_core(x), after = from_core(x + way);
-    const double sum = q.norm() + after.norm();
+    const double sum = hollow ? -(q.norm() + after.norm()) : q.norm() + after.norm();
     // Of q^2: differences of squares are those of the numbers times their sums.
     if (!has_circle()) {
         const Vec3 moved = across * way;
@@ -197,8 +225,14 @@ FeatureMotion Feature::motion_at(const Vec3& x, const Vec3& v) const {
         m.turning_speed = v;
     }
     m.distance = q.norm();
+    m.gap = m.distance - distance;
     m.normal = q / m.distance;
     m.normal_rate = (q_rate - m.normal.dot(q_rate) * m.normal) / m.distance;
+    if (hollow) {
+        m.gap = -m.gap;
+        m.normal = -m.normal;
+        m.normal_rate = -m.normal_rate;
+    }
     return m;
 }
 

@@ -1,6 +1,7 @@
 // The features of shapes: a ball's centre keeps its distance from the core of the one that it
 // touches, which is a point (a sphere, the end of a capsule, a corner), a line (a shaft, a straight
-// edge), a plane (a face) or a circle (a round edge).
+// edge), a plane (a face) or a circle (a ring, a
+// round edge).
 #pragma once
 
 #include <array>
@@ -27,6 +28,7 @@ inline constexpr int kMostBorders = 18;
 
 /// How a ball's centre moves around the core of a feature.
 struct FeatureMotion {
+    double gap = 0;  ///< m
     Vec3 normal = Vec3::UnitZ();
     Vec3 normal_rate = Vec3::Zero();  ///< 1/s
     double distance = 0;              ///< of the centre from the core, m
@@ -41,15 +43,24 @@ struct Feature {
     double distance = 1;             ///< of a touching ball's centre from the core, m
     double core_radius = 0;          ///< of a core that is a circle, m; 0 for all others
     Vec3 core_axis = Vec3::UnitZ();  ///< of such a circle, unit
+    bool hollow = false;             ///< the ball is inside: the normal points towards the core
+    /// Of a place that holds a ball from all sides, such as a hole that is too small for it: what
+    /// pulls along it moves nothing up to this part of what presses. 0 for all others.
+    double hold = 0;
     std::array<FeatureBorder, kMostBorders> borders{};
     int border_count = 0;
 
     bool has_circle() const { return core_radius > 0; }
     /// From the core's nearest point to x, m.
     Vec3 from_core(const Vec3& x) const;
-    Vec3 normal_at(const Vec3& x) const { return from_core(x).normalized(); }
+    Vec3 normal_at(const Vec3& x) const {
+        return hollow ? Vec3(-from_core(x).normalized()) : Vec3(from_core(x).normalized());
+    }
     /// Of a ball's centre at x from where it touches, m.
-    double gap_at(const Vec3& x) const { return from_core(x).norm() - distance; }
+    double gap_at(const Vec3& x) const {
+        const double away = from_core(x).norm();
+        return hollow ? distance - away : away - distance;
+    }
     /// What the gap grows by on a way from x, m: without the rounding of either gap.
     double gap_growth(const Vec3& x, const Vec3& way) const;
     /// Of a centre at x [m] that moves by v [m/s].

@@ -19,5 +19,9 @@ struct GapBound {
 /// Of a ball of `radius` [m] around `center` [m]. The distance from a convex body is a convex
 /// function of the place: it stays above its tangent plane.
 GapBound gap_bound(const CylinderShape& cylinder, const Vec3& center, double radius);
+/// The distance from a circle of the radius R bends, at `away` from its axis and d from the circle,
+/// by 1/d across the circle and by (away - R) / (away d) around the axis: downwards within the
+/// circle, and there by no more than 1/away, since d >= R - away.
+GapBound gap_bound(const RingShape& ring, const Vec3& center, double radius);
 
 }  // namespace carom

@@ -21,6 +21,17 @@ Nearest nearest_around(const Vec3& core, double round, const Vec3& center, doubl
     return {distance - radius - round, normal, core + round * normal};
 }
 
+/// Of all points within `round` of a circle.
+Nearest nearest_on_circle(const Vec3& middle, const Vec3& axis, double core_radius, double round,
+                          const Vec3& center, double radius) {
+    const AroundAxis at(middle, axis, center);
+    if (at.away > kCentred * core_radius || radius + round <= core_radius)
+        return nearest_around(middle + core_radius * at.outward, round, center, radius);
+    const double gap = std::hypot(core_radius, at.along) - radius - round;
+    const Vec3 normal = at.along < 0 ? Vec3(-axis) : axis;
+    return {gap, normal, center - (gap + radius) * normal};
+}
+
 }  // namespace
 
 Nearest nearest_on(const PlaneShape& plane, const Vec3& center, double radius) {
@@ -77,6 +88,10 @@ Nearest nearest_on(const CylinderShape& cylinder, const Vec3& center, double rad
         normal = (side * beyond / distance) * axis + (out / distance) * at.outward;
     }
     return {distance - radius, normal, center - distance * normal};
+}
+
+Nearest nearest_on(const RingShape& ring, const Vec3& center, double radius) {
+    return nearest_on_circle(ring.center, ring.axis, ring.radius, ring.tube_radius, center, radius);
 }
 
 Nearest nearest_on(const SurfaceShape& shape, const Vec3& center, double radius) {

@@ -53,7 +53,18 @@ struct CylinderShape {
     bool operator==(const CylinderShape&) const = default;
 };
 
-using SurfaceShape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, CylinderShape>;
+/// A torus: all points within `tube_radius` of a circle.
+struct RingShape {
+    Vec3 center = Vec3::Zero();
+    Vec3 axis = Vec3::UnitZ();  ///< unit, across the circle
+    double radius = 1;          ///< of the circle, m
+    double tube_radius = 0.1;   ///< m, below `radius`
+
+    bool operator==(const RingShape&) const = default;
+};
+
+using SurfaceShape =
+    std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, CylinderShape, RingShape>;
 
 /// Of a set of lambdas, one overloaded function for std::visit.
 template <class... Cases>
@@ -66,10 +77,10 @@ PerShape(Cases...) -> PerShape<Cases...>;
 /// Whether a shape goes on without end: a plane.
 inline bool is_unbounded(const SurfaceShape& shape) {
     return std::visit(
-        PerShape{[](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
-                 [](const SphereShape&) { return false; },
-                 [](const CapsuleShape&) { return false; },
-                 [](const CylinderShape&) { return false; }},
+        PerShape{
+            [](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
+            [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
+            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }},
         shape);
 }
 

@@ -91,6 +91,26 @@ ReadShape read_cylinder(Build& build, const Fields& fields, const Node& node) {
     return {cylinder, node.valid};
 }
 
+ReadShape read_ring(Build& build, const Fields& fields, const Node& node) {
+    RingShape ring{fields.vec3("position"), fields.vec3("axis"),
+                   fields.maybe_number("radius").value_or(1),
+                   fields.maybe_number("tube_radius").value_or(0.1)};
+    if (ring.axis.norm() < kShortest) {
+        const Node* axis = fields.find("axis");
+        build.report.error(axis != nullptr ? *axis : node, "the ring's axis has length 0");
+        return {ring, false};
+    }
+    ring.axis.normalize();
+    if (!node.valid) return {ring, false};
+    if (ring.tube_radius >= ring.radius) {
+        build.report.error(*fields.find("tube_radius"),
+                           "the ring's tube_radius must be below its radius, which is that of the "
+                           "tube's middle: else there is no hole");
+        return {ring, false};
+    }
+    return {ring, true};
+}
+
 ReadShape read_shape(Build& build, const Node& surface) {
     const Fields fields = build.fields(Section::kSurface, &surface);
     if (const Node* node = surface.find("plane"))
@@ -102,6 +122,8 @@ ReadShape read_shape(Build& build, const Node& surface) {
         return read_capsule(build, fields.child("capsule"), *node);
     if (const Node* node = surface.find("cylinder"))
         return read_cylinder(build, fields.child("cylinder"), *node);
+    if (const Node* node = surface.find("ring"))
+        return read_ring(build, fields.child("ring"), *node);
     return {PlaneShape{}, false};
 }
 

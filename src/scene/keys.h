@@ -25,6 +25,7 @@ enum class Section {
     kSphere,
     kCapsule,
     kCylinder,
+    kRing,
     kDefaults,
     kBallDefaults,  ///< the rows of kBall that have `in_defaults`
     kBall,

@@ -9,7 +9,9 @@ std::vector<Rule> key_rules() {
         {kMaterial, Rule::Kind::kAtMostOne, {"restitution", "virtual_body"}},
         {kVirtualBody, Rule::Kind::kAboveZeroWith, {"distance", "velocity"}},
         {kPair, Rule::Kind::kAtLeastOne, {"restitution", "friction"}},
-        {kSurface, Rule::Kind::kExactlyOne, {"plane", "box", "sphere", "capsule", "cylinder"}},
+        {kSurface,
+         Rule::Kind::kExactlyOne,
+         {"plane", "box", "sphere", "capsule", "cylinder", "ring"}},
         {kBox, Rule::Kind::kAtMostOne, {"rotation_deg", "quaternion"}},
         {kCamera, Rule::Kind::kExactlyOne, {"from", "path"}},
         {kCamera, Rule::Kind::kExactlyOne, {"to", "path"}},
@@ -46,6 +48,7 @@ std::vector<SectionDoc> section_docs() {
         {kCapsule, "capsule", "surfaces[].capsule", "All points within `radius` of a segment."},
         {kCylinder, "cylinder", "surfaces[].cylinder",
          "A solid cylinder with flat ends; balls meet its rims as edges."},
+        {kRing, "ring", "surfaces[].ring", "All points within `tube_radius` of a circle: a torus."},
         {kDefaults, "defaults", "defaults", "What fills in for values that are left out."},
         {kBallDefaults, "ball_defaults", "defaults.ball",
          "Fills what a ball, and the preset that the ball names, leave out. The keys are those of "

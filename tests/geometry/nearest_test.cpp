@@ -50,6 +50,15 @@ TEST(Nearest, ACylinderHasEndsAShaftAndRims) {
                 kRounding);
 }
 
+TEST(Nearest, ARingIsRoundAllAround) {
+    const RingShape ring{Vec3::Zero(), Vec3::UnitZ(), 2, 0.5};
+    EXPECT_NEAR(nearest_on(ring, {0, 0, 0}, 1).gap, 0.5, kRounding);  // in the hole
+    EXPECT_NEAR(nearest_on(ring, {3, 4, 4}, 0.5).gap, 4, kRounding);  // 3-4-5 from the circle
+    EXPECT_LT((nearest_on(ring, {3, 4, 4}, 0.5).normal - Vec3(0.36, 0.48, 0.8)).norm(), kRounding);
+    EXPECT_NEAR(nearest_on(ring, {1.2, 1.6, 0.25}, 0).gap, -0.25, kRounding);  // inside the tube
+    EXPECT_EQ(nearest_on(ring, {1, 0, 0}, 0).normal, Vec3(-1, 0, 0));
+}
+
 TEST(Nearest, TurningAndMovingShapeAndPointChangesNoDistance) {
     const BoxShape box{Vec3::Zero(), {2, 4, 6}, Quat::Identity()};
     const Vec3 move(3, -1, 2);

@@ -124,6 +124,15 @@ TEST(TimeOfImpact, CylinderEndsShaftAndRims) {
                 "needle");
 }
 
+TEST(TimeOfImpact, RingFromAllSides) {
+    const Vec3 axis = Vec3(1, -2, 0.5).normalized();
+    expect_good(shoot(RingShape{Vec3(0.1, 0, -0.2), axis, 0.6, 0.1}, Vec3(0.1, 0, -0.2), 0.6, 10),
+                "ring");
+    // Thinner than the balls, and with a hole that is too small for them.
+    expect_good(shoot(RingShape{Vec3::Zero(), axis, 0.7, 1e-3}, Vec3::Zero(), 0.6, 11), "wire");
+    expect_good(shoot(RingShape{Vec3::Zero(), axis, 0.2, 0.15}, Vec3::Zero(), 0.3, 12), "knob");
+}
+
 TEST(TimeOfImpact, FastBallAgainstThinPlate) {
     for (int phase = 0; phase < 1000; ++phase) {
         const double z0 = 2 + 0.001 * phase;
@@ -155,6 +164,14 @@ TEST(TimeOfImpact, GrazingIsDecidedBySign) {
             EXPECT_EQ(state(Vec3(-4, 0.5 + r + offset, 0),
                             CylinderShape{Vec3(0, 0, -1), Vec3(0, 0, 1), 0.5}),
                       expected);
+            // Inside a ring that stands upright, and by its outside.
+            const RingShape ring{Vec3::Zero(), Vec3::UnitZ(), 0.75, 0.25};
+            EXPECT_EQ(state(Vec3(-4, 1 + r + offset, 0), ring), expected);
+            EXPECT_EQ(
+                impact_with_surface({Vec3(0.375 - offset, 0, -4), Vec3(0, 0, speed), Vec3::Zero()},
+                                    r, ring, false, horizon)
+                    .state,
+                expected);
             // Past the rim, across the top of a circle that stands upright.
             EXPECT_EQ(state(Vec3(-4, 0.5 + r + offset, 1),
                             CylinderShape{Vec3(0, 0, -1), Vec3(0, 0, 1), 0.5}),

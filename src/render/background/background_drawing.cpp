@@ -42,6 +42,7 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
         defines.push_back("OTHERS");
         if (table.capsules) defines.push_back("CAPSULES");
         if (table.cylinders) defines.push_back("CYLINDERS");
+        if (table.rings) defines.push_back("RINGS");
     }
     if (table.checker) defines.push_back("CHECKER");
     if (table.grid) defines.push_back("GRID");

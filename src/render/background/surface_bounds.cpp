@@ -57,12 +57,26 @@ SurfaceBound cylinder_bound(const Vec3& from, const Vec3& along, double radius) 
     return bound;
 }
 
+/// A ring within a circle of eight sides.
+SurfaceBound ring_bound(const Vec3& center, const Vec3& axis, double radius, double tube) {
+    SurfaceBound bound;
+    const Vec3 u = axis.unitOrthogonal() * radius, v = axis.cross(u);
+    bound.cores = octagon_around(center, u, v);
+    bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    bound.thick = tube;
+    bound.center = center;
+    bound.radius = radius + tube;
+    return bound;
+}
+
 SurfaceBound other_bound(const SurfaceTable& table, int record) {
     const Eigen::Vector4d end = table.at(record, 0), way = table.at(record, 1);
     const Vec3 from = end.head<3>(), along = way.head<3>();
     switch (static_cast<OtherKind>(std::lround(way.w()))) {
         case OtherKind::kCylinder:
             return cylinder_bound(from, along, end.w());
+        case OtherKind::kRing:
+            return ring_bound(from, along, end.w(), table.at(record, 2).x());
         case OtherKind::kCapsule:
             break;
     }

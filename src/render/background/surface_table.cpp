@@ -93,6 +93,14 @@ Record rod_record(const Vec3& from, const Vec3& to, double radius, OtherKind kin
     return record;
 }
 
+Record ring_record(const RingShape& ring, const View& view) {
+    Record record{};
+    put(record, 0, view_point(view, ring.center), ring.radius);
+    put(record, 1, view_direction(view, ring.axis), static_cast<double>(OtherKind::kRing));
+    put(record, 2, Vec3(ring.tube_radius, 0, 0), 0);
+    return record;
+}
+
 /// The groups of records, in their order.
 enum class Group { kPlanes, kBoxes, kSpheres, kOthers };
 
@@ -101,7 +109,8 @@ Group group_of(const SurfaceShape& shape) {
                                [](const BoxShape&) { return Group::kBoxes; },
                                [](const SphereShape&) { return Group::kSpheres; },
                                [](const CapsuleShape&) { return Group::kOthers; },
-                               [](const CylinderShape&) { return Group::kOthers; }},
+                               [](const CylinderShape&) { return Group::kOthers; },
+                               [](const RingShape&) { return Group::kOthers; }},
                       shape);
 }
 
@@ -120,14 +129,16 @@ std::optional<Record> record_of(const SurfaceShape& shape, const Look& look, con
                  },
                  [&](const CylinderShape& c) {
                      return Made(rod_record(c.from, c.to, c.radius, OtherKind::kCylinder, view));
-                 }},
+                 },
+                 [&](const RingShape& ring) { return Made(ring_record(ring, view)); }},
         shape);
 }
 
 void note_kind(const SurfaceShape& shape, SurfaceTable& table) {
     std::visit(PerShape{[](const PlaneShape&) {}, [](const BoxShape&) {}, [](const SphereShape&) {},
                         [&](const CapsuleShape&) { table.capsules = true; },
-                        [&](const CylinderShape&) { table.cylinders = true; }},
+                        [&](const CylinderShape&) { table.cylinders = true; },
+                        [&](const RingShape&) { table.rings = true; }},
                shape);
 }
 

@@ -48,13 +48,14 @@ std::optional<Mirror> mirror_of(const BoxShape& box, const View& view) {
 std::optional<Mirror> mirror_of(const SphereShape&, const View&) { return std::nullopt; }
 std::optional<Mirror> mirror_of(const CapsuleShape&, const View&) { return std::nullopt; }
 std::optional<Mirror> mirror_of(const CylinderShape&, const View&) { return std::nullopt; }
+std::optional<Mirror> mirror_of(const RingShape&, const View&) { return std::nullopt; }
 
 bool can_mirror(const SurfaceShape& shape) {
     return std::visit(
-        PerShape{[](const PlaneShape&) { return true; }, [](const BoxShape&) { return true; },
-                 [](const SphereShape&) { return false; },
-                 [](const CapsuleShape&) { return false; },
-                 [](const CylinderShape&) { return false; }},
+        PerShape{
+            [](const PlaneShape&) { return true; }, [](const BoxShape&) { return true; },
+            [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
+            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }},
         shape);
 }
 

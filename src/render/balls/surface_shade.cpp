@@ -56,6 +56,24 @@ bool meets(const CylinderShape& cylinder, const Vec3& p, const Vec3& l) {
     return std::max({middle - side, at - slab, 0.0}) < std::min(middle + side, at + slab);
 }
 
+/// Along the ray by its distance from the ring, which is how far it certainly does not meet it.
+bool meets(const RingShape& ring, const Vec3& p, const Vec3& l) {
+    constexpr int kMostSteps = 64;
+    constexpr double kMet = 1e-3;  ///< of the tube: nearer counts as met
+    const Vec3 rel = p - ring.center;
+    const double around = ring.radius + ring.tube_radius, middle = -rel.dot(l);
+    const double reach = around * around - (rel + middle * l).squaredNorm();
+    if (reach <= 0) return false;
+    const double end = middle + std::sqrt(reach);
+    double s = std::max(middle - std::sqrt(reach), 0.0);
+    for (int i = 0; i < kMostSteps && s < end; ++i) {
+        const double gap = nearest_on(ring, p + s * l, 0).gap;
+        if (gap < kMet * ring.tube_radius) return true;
+        s += gap;
+    }
+    return false;
+}
+
 /// Part of a disc of radius r that a disc-like obstacle of radius R hides, centres `across` apart:
 /// a smooth ramp between apart (0) and one within the other (1).
 double hidden_part(double across, double obstacle, double r) {
@@ -89,6 +107,11 @@ SurfaceShape in_view(const CapsuleShape& c, const View& view, const Quat&) {
 }
 SurfaceShape in_view(const CylinderShape& c, const View& view, const Quat&) {
     return CylinderShape{view_point(view, c.from), view_point(view, c.to), c.radius};
+}
+
+SurfaceShape in_view(const RingShape& ring, const View& view, const Quat&) {
+    return RingShape{view_point(view, ring.center), view_direction(view, ring.axis), ring.radius,
+                     ring.tube_radius};
 }
 
 /// A ball in the light of the lamp, past a body whose middle is at `along` towards the lamp and at
@@ -128,6 +151,7 @@ double hidden_by(const CapsuleShape& capsule, const InLight& at) {
 double hidden_by(const CylinderShape& cylinder, const InLight& at) {
     return hidden_of_rays(cylinder, at);
 }
+double hidden_by(const RingShape& ring, const InLight& at) { return hidden_of_rays(ring, at); }
 
 }  // namespace
 

@@ -188,6 +188,12 @@ void MotionExtent::add_surfaces(const Scene& scene) {
                         for (const Vec3& p : on_circle(end, axis, drum.radius))
                             rims.push_back({p, 0, 0});
                     return rims;
+                },
+                [](const RingShape& ring) {
+                    Blobs tube;
+                    for (const Vec3& p : on_circle(ring.center, ring.axis, ring.radius))
+                        tube.push_back({p, ring.tube_radius, 0});
+                    return tube;
                 }},
             surface.shape);
         if (!blobs.empty()) add_surface(blobs);

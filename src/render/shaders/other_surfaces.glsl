@@ -2,7 +2,7 @@
 // Their records say of which kind they are, as OtherKind of surface_table.h numbers them.
 
 #ifdef OTHERS
-const float kCapsule = 0.0, kCylinder = 1.0;
+const float kCapsule = 0.0, kCylinder = 1.0, kRing = 2.0;
 #endif
 
 #ifdef CAPSULES
@@ -49,7 +49,7 @@ void meet_capsule(inout Hit hit, vec3 d, int item, bool here, vec4 a, vec3 b) {
 }
 #endif
 
-#ifdef CYLINDERS
+#if defined(CYLINDERS) || defined(RINGS)
 struct Rod {
     vec3 middle, axis;  // the axis unit
     float half_length, radius;
@@ -78,6 +78,9 @@ vec4 through_cylinder(vec3 d, Rod rod, float wider) {
     return vec4(max(enter_side, enter_end), leave, enter_end > enter_side ? 1.0 : 0.0, passes);
 }
 
+#endif
+
+#ifdef CYLINDERS
 void meet_cylinder(inout Hit hit, vec3 d, int item, bool here, vec4 a, vec3 b) {
     Rod rod = rod_of(a, b);
     vec4 way = through_cylinder(d, rod, 0.0);
@@ -118,6 +121,97 @@ float outside_cylinder(Rod rod, vec3 p) {
 }
 #endif
 
+#ifdef RINGS
+struct Ring {
+    vec3 center, axis;  // the axis unit
+    float radius, tube;
+};
+
+// Distance of a place from the circle in the middle of the tube.
+float from_circle(Ring ring, vec3 p) {
+    vec3 from_center = p - ring.center;
+    float z = dot(from_center, ring.axis);
+    return length(vec2(length(from_center - z * ring.axis) - ring.radius, z));
+}
+
+// The part of the ray t d that may meet the ring made wider: through the flat cylinder around it.
+vec2 near_ring(vec3 d, Ring ring, float wider) {
+    Rod around = Rod(ring.center, ring.axis, ring.tube + wider, ring.radius + ring.tube + wider);
+    return through_cylinder(d, around, 0.0).xy;
+}
+
+void meet_ring(inout Hit hit, vec3 d, int item, bool here, Ring ring) {
+    const int kSteps = 64;
+    const float kMet = 0.01;  // pixels
+    float speed = length(d);
+    float farthest = length(ring.center) + ring.radius + ring.tube;
+    float wider = kEdgeReach * pixel_on(farthest);
+    vec2 way = near_ring(d, ring, wider);
+    // Along the ray by the distance from the ring, which is how far it certainly does not meet it.
+    float t = max(way.x, 0.0), gap = kFar, passes = kFar;
+    bool met = false;
+    int step = 0;
+    bool on = here && way.x < way.y;
+    do {
+        if (on) {
+            gap = from_circle(ring, t * d) - ring.tube;
+            float pixel = pixel_on(t);
+            passes = min(passes, gap / pixel);
+            met = gap < kMet * pixel;
+            if (!met) t += max(gap, kMet * pixel) / speed;
+            on = !met && t < way.y;
+        }
+    } while (++step < kSteps && on);
+    if (met && t > 0.0) {
+        vec3 p = t * d - ring.center;
+        float z = dot(p, ring.axis);
+        vec3 across = p - z * ring.axis;
+        vec3 n = normalize(p - across * (ring.radius / max(length(across), 1e-20)));
+        // How far the outline of the tube is from here, as seen.
+        float facing = clamp(-dot(n, d) / speed, 0.0, 1.0);
+        float to_outline = ring.tube * (1.0 - sqrt(1.0 - facing * facing));
+        if (t < hit.t && to_outline < kEdgeReach * pixel_on(t)) hit.edge = true;
+        take(hit, t, item, n, 0, d);
+    }
+    if (here && passes < kEdgeReach && passes > kMet && way.x < hit.t) hit.edge = true;
+}
+
+// Where the ray p + s l comes nearest to the circle between two places: distance and s. There is one
+// such place on either side of the ring's middle.
+vec2 nearest_to_circle(Ring ring, vec3 p, vec3 l, float low, float high) {
+    for (int i = 0; i < 18; ++i) {
+        float a = mix(low, high, 0.38), b = mix(low, high, 0.62);
+        if (from_circle(ring, p + a * l) < from_circle(ring, p + b * l)) high = b; else low = a;
+    }
+    float s = 0.5 * (low + high);
+    return vec2(from_circle(ring, p + s * l), s);
+}
+
+// Part of the key light that a rod hides, as hidden_by_ball(): one that looks thinner than the lamp
+// hides a strip of it.
+float hidden_by_tube(float along, float across, float radius, float blur) {
+    float spread = max(along, 0.0) * u_light_tan;
+    float width = sqrt(spread * spread + blur * blur) + 1e-6 * radius;
+    return smoothstep(-width, width, radius - across) * min(1.0, 1.27 * radius / width);
+}
+
+// Part of the key light that the ring leaves to the place p.
+float light_past_ring(Ring ring, vec3 p, float blur) {
+    vec3 to_center = ring.center - p;
+    float middle = dot(to_center, u_light), around = ring.radius + ring.tube;
+    float aside = length(to_center - middle * u_light);
+    float spread = max(middle + around, 0.0) * u_light_tan + blur;
+    if (middle < -around || aside > around + spread) return 1.0;
+    float half_way = around + spread;
+    vec2 one = nearest_to_circle(ring, p, u_light, max(middle - half_way, 0.0), max(middle, 0.0));
+    vec2 two = nearest_to_circle(ring, p, u_light, max(middle, 0.0), max(middle + half_way, 0.0));
+    float hidden = 1.0 - hidden_by_tube(two.y, two.x, ring.tube, blur);
+    // Seen edge-on, or where a ray begins within the ring, both are one.
+    if (abs(one.y - two.y) > ring.tube) hidden *= 1.0 - hidden_by_tube(one.y, one.x, ring.tube, blur);
+    return hidden;
+}
+#endif
+
 #ifdef OTHERS
 void meet_others(inout Hit hit, vec3 d) {
     int i = v_seen.z;
@@ -131,6 +225,10 @@ void meet_others(inout Hit hit, vec3 d) {
 #endif
 #ifdef CYLINDERS
         if (b.w == kCylinder) meet_cylinder(hit, d, item, here, a, b.xyz);
+#endif
+#ifdef RINGS
+        if (b.w == kRing)
+            meet_ring(hit, d, item, here, Ring(a.xyz, b.xyz, a.w, surface(item, 2).x));
 #endif
     } while (++i < v_seen.w);
 }

@@ -197,6 +197,14 @@ vec2 open_to_light(vec3 p, vec3 n, float lift, vec3 px, vec3 py, int own, float 
             visible *= 1.0 - hidden / float(max(count, 1));
         }
 #endif
+#ifdef RINGS
+        if (b.w == kRing) {
+            Ring ring = Ring(a.xyz, b.xyz, a.w, surface(item, 2).x);
+            gap = vec3(from_circle(ring, p + heights.x * n), from_circle(ring, p + heights.y * n),
+                       from_circle(ring, p + heights.z * n)) - ring.tube;
+            if (other) visible *= light_past_ring(ring, p + lift * n, blur);
+        }
+#endif
         if (other) away = min(away, gap);
     } while (++c < v_shading.w);
 #endif

@@ -247,5 +247,7 @@ TimeOfImpact advance_to_impact(const HighDegreePath& ball, double radius, const 
 
 template TimeOfImpact advance_to_impact(const Path&, double, const CylinderShape&, bool, double);
 template TimeOfImpact advance_to_impact(const HighDegreePath&, double, const CylinderShape&, bool);
+template TimeOfImpact advance_to_impact(const Path&, double, const RingShape&, bool, double);
+template TimeOfImpact advance_to_impact(const HighDegreePath&, double, const RingShape&, bool);
 
 }  // namespace carom

@@ -288,6 +288,10 @@ TimeOfImpact impact_with(const CylinderShape& cylinder, const Path& ball, double
                          bool touching, double horizon) {
     return advance_to_impact(ball, radius, cylinder, touching, horizon);
 }
+TimeOfImpact impact_with(const RingShape& ring, const Path& ball, double radius, bool touching,
+                         double horizon) {
+    return advance_to_impact(ball, radius, ring, touching, horizon);
+}
 
 }  // namespace
 

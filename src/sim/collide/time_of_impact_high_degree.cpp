@@ -186,6 +186,10 @@ TimeOfImpact impact_with(const CylinderShape& cylinder, const HighDegreePath& ba
                          bool touching) {
     return advance_to_impact(ball, radius, cylinder, touching);
 }
+TimeOfImpact impact_with(const RingShape& ring, const HighDegreePath& ball, double radius,
+                         bool touching) {
+    return advance_to_impact(ball, radius, ring, touching);
+}
 
 }  // namespace
 

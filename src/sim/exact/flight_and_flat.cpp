@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/failure.h"
+#include "geometry/convexity.h"
 #include "geometry/feature.h"
 #include "geometry/feature_side.h"
 #include "sim/exact/run.h"
@@ -33,6 +34,7 @@ double seconds_on(const SphereShape&, const Piece&, double, const Vec3&, double)
 double seconds_on(const CapsuleShape&, const Piece&, double, const Vec3&, double) {
     return kInfinity;
 }
+double seconds_on(const RingShape&, const Piece&, double, const Vec3&, double) { return kInfinity; }
 double seconds_on(const CylinderShape& cylinder, const Piece& piece, double radius, const Vec3&,
                   double horizon) {
     const Vec3 axis = (cylinder.to - cylinder.from).normalized();
@@ -105,6 +107,21 @@ double ExactRun::pressing_gravity(const Vec3& normal) const {
     return g_n > 1e-14 * g.norm() ? g_n : 0;
 }
 
+/// What presses a ball of the velocity `velocity` [m/s] onto a surface, m/s^2: gravity, and on a
+/// surface that bends towards the ball, such as the inside of a ring, its own motion along it.
+double ExactRun::pressing(const Contact& c, double now, const Vec3& velocity) const {
+    if (!c.other.is_surface || is_convex(world_.surface(c.other.index).shape))
+        return pressing_gravity(c.normal);
+    const Vec3 x = world_.position(c.ball, now), v = tangential_part(velocity, c.normal);
+    const Vec3& g = world_.scene.simulation.gravity;
+    const FeatureMotion motion =
+        feature_at(world_.surface(c.other.index).shape, {x, v, g}, world_.ball(c.ball).radius)
+            .motion_at(x, v);
+    const double bend = -motion.turning_speed.dot(motion.normal_rate);
+    const double sum = bend - g.dot(c.normal);
+    return sum > 1e-14 * (g.norm() + std::abs(bend)) ? sum : 0;
+}
+
 /// The velocities with which a ball goes on in a contact whose last bounces are summed.
 Velocities ExactRun::landed(int ball, double now, const Contact& contact,
                             const Velocities& velocities, double separation) const {
@@ -113,11 +130,12 @@ Velocities ExactRun::landed(int ball, double now, const Contact& contact,
 }
 
 /// Whether a contact that does not approach is a lasting one; `bounce_time_left` [s] is how long
-/// its remaining bounces take: 2 v / (g_n (1 - e)), v the separation speed.
-bool ExactRun::lasts(const Contact& c, int ball, double now, double speed_scale,
-                     double& bounce_time_left) const {
-    const double g_n = pressing_gravity(c.normal);
-    if (!c.other.is_surface || g_n == 0) return false;
+/// its remaining bounces take: 2 v / (g_n (1 - e)), v the separation speed and g_n what presses.
+bool ExactRun::lasts(const Contact& c, int ball, double now, const Vec3& velocity,
+                     double speed_scale, double& bounce_time_left) const {
+    if (!c.other.is_surface) return false;
+    const double g_n = pressing(c, now, velocity);
+    if (g_n == 0) return false;
     const double v = std::max(c.separation_speed, 0.0);
     bounce_time_left = 0;
     if (v <= kStillFraction * speed_scale) return true;
@@ -157,7 +175,7 @@ void ExactRun::settle(int ball, double now, const Velocities& velocities,
     bool many = false;
     for (const Contact& c : contacts) {
         double bounce_time = 0;
-        if (!lasts(c, ball, now, speed_scale, bounce_time)) continue;
+        if (!lasts(c, ball, now, velocities.linear, speed_scale, bounce_time)) continue;
         if (lasting != nullptr) many = true;
         if (many) note_landing(*lasting, now, now + bounce_time_left);
         lasting = &c;

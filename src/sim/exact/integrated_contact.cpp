@@ -14,6 +14,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Gravity along the surface counts as none below this fraction: a few roundings.
 constexpr double kBalanced = 1e-14;
 
+/// A ball in a hole that is too small for it sits there once it is slower than this part of
+/// sqrt(g r): the bounces between the hole's sides that are left have no end.
+constexpr double kSeated = 1e-6;
+
 /// When so many phases have ended at once at an instant, the next one has to go on.
 constexpr int kMostAtOnce = 4;
 
@@ -29,6 +33,13 @@ EventKind kind_of(ContactMode mode) {
 }
 
 bool is_plane(const SingleContact& contact) { return contact.across.trace() < 1.5; }
+
+/// Ends what is left of a ball's motion in a hole that holds it all around. Friction leaves of its
+/// spin the part about the hole's axis.
+void sit(IntegratedPhase& phase, const Vec3& axis) {
+    phase.state.v.setZero();
+    if (phase.contact.friction > 0) phase.state.w = phase.state.w.dot(axis) * axis;
+}
 
 }  // namespace
 
@@ -90,9 +101,12 @@ void ExactRun::begin_integrated_on(int ball, double now, const Contact& contact,
         lift_off(ball, now, contact.other, forces.normal);
         return;
     }
-    const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
     Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
-    const bool rests = still && pull.norm() <= kBalanced * gravity.norm();
+    const bool seated = pull.norm() < phase.contact.hold * forces.push &&
+                        phase.state.v.norm() < kSeated * std::sqrt(gravity.norm() * body.radius);
+    if (seated) sit(phase, forces.normal);
+    const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
+    const bool rests = seated || (still && pull.norm() <= kBalanced * gravity.norm());
     begin_flat_piece(ball, now, {true, contact.other.index}, forces.normal,
                      rests ? EventKind::kRest : kind_of(phase.mode), bounce_time_left, at_start);
     if (!rests) {

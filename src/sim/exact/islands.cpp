@@ -202,13 +202,13 @@ bool ExactRun::leave_island(int ball, double now) {
     const Contact contact = world_.contact_at(ball, link.partner, now);
     // It joined because it met something: where nothing else tells whether the contact presses, a
     // step does.
-    const bool presses = !world_.ball(ball).coarse && pressing_gravity(contact.normal) > 0 &&
-                         separation_of(contact, now) == nullptr;
+    const double pressed_by = pressing(contact, now, velocities.linear);
+    const bool presses =
+        !world_.ball(ball).coarse && pressed_by > 0 && separation_of(contact, now) == nullptr;
     const double v = velocities.linear.dot(contact.normal);
     // Nothing brings it back.
     const bool parts =
-        !world_.ball(ball).coarse && pressing_gravity(contact.normal) == 0 &&
-        landing_of(contact, now) == nullptr &&
+        !world_.ball(ball).coarse && pressed_by == 0 && landing_of(contact, now) == nullptr &&
         v > kStillFraction * velocities.linear.norm() + world_.ball(ball).rounding_speed;
     if (world_.ball(ball).steps == 0 && !presses && !parts) return false;
     if (parts || (!presses && !link.pressed && v > 0)) {  // lifted off

@@ -316,11 +316,12 @@ bool ExactRun::rests_against(int ball, const Partner& partner, double now) {
     return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
 }
 
-/// A ball in flight along a surface to which gravity is parallel: only rounding presses.
+/// A ball in flight along a surface onto which nothing presses it: only rounding says so.
 bool ExactRun::flies_along(int ball, const Partner& partner, double now) const {
     const ExactBall& b = world_.ball(ball);
     return partner.is_surface && !b.stepped && b.surface < 0 && !b.piece.curve &&
-           pressing_gravity(world_.contact_at(ball, partner, now).normal) == 0;
+           pressing(world_.contact_at(ball, partner, now), now,
+                    world_.velocities(ball, now).linear) == 0;
 }
 
 /// What touches will go on to do so.

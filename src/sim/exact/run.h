@@ -71,10 +71,11 @@ class ExactRun {
     void settle(int ball, double now, const Velocities& velocities,
                 const std::vector<Contact>& contacts, double speed_scale, bool at_start);
     double pressing_gravity(const Vec3& normal) const;
+    double pressing(const Contact& contact, double now, const Vec3& velocity) const;
     Velocities landed(int ball, double now, const Contact& contact, const Velocities& velocities,
                       double separation) const;
-    bool lasts(const Contact& contact, int ball, double now, double speed_scale,
-               double& bounce_time_left) const;
+    bool lasts(const Contact& contact, int ball, double now, const Vec3& velocity,
+               double speed_scale, double& bounce_time_left) const;
     double bounce_of(const Contact& contact) const;
     bool approaches_at_start(int ball, const std::vector<Contact>& contacts) const;
     void begin_flat_contact(int ball, double now, const Contact& contact,

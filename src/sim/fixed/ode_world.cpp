@@ -46,6 +46,8 @@ dGeomID make_geom(dSpaceID space, const CylinderShape& cylinder) {
     return make_surface_geom(space, cylinder);
 }
 
+dGeomID make_geom(dSpaceID space, const RingShape& ring) { return make_surface_geom(space, ring); }
+
 OdeSpacePtr make_ball_space(std::size_t balls) {
     if (balls < kManyBalls) return OdeSpacePtr(dSimpleSpaceCreate(nullptr));
     return OdeSpacePtr(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));

@@ -31,7 +31,7 @@ ContactMotion contact_motion(const CoupledContacts& system, const CoupledContact
         const FeatureMotion around = c.feature.motion_at(a.x, a.v);
         m.n = around.normal;
         m.n_rate = around.normal_rate;
-        m.distance = around.distance;
+        m.gap = around.gap;
         m.across_speed = around.turning_speed;
     } else {
         const ContactState& b = state[static_cast<std::size_t>(c.other)];
@@ -39,9 +39,10 @@ ContactMotion contact_motion(const CoupledContacts& system, const CoupledContact
         v -= b.v;
         m.across_speed = v;
         m.turn_speed += system.balls[static_cast<std::size_t>(c.other)].radius * b.w;
-        m.distance = q.norm();
-        m.n = q / m.distance;
-        m.n_rate = (m.across_speed - m.n.dot(m.across_speed) * m.n) / m.distance;
+        const double distance = q.norm();
+        m.gap = distance - c.feature.distance;
+        m.n = q / distance;
+        m.n_rate = (m.across_speed - m.n.dot(m.across_speed) * m.n) / distance;
     }
     m.speed = m.n.dot(v);
     m.slip = v - m.speed * m.n - m.turn_speed.cross(m.n);

@@ -44,7 +44,7 @@ SingleContact feature_at(const ExactWorld& world, const Contact& c, const Vec3& 
 /// The least acceleration along the normal that keeps a centre out of a feature [m/s^2].
 double demand_of(const SingleContact& feature, const Vec3& x, const Vec3& v) {
     const FeatureMotion m = feature.motion_at(x, v);
-    if (feature.has_circle()) return -v.dot(m.normal_rate);
+    if (feature.has_circle() || feature.hollow) return -m.turning_speed.dot(m.normal_rate);
     const Vec3& moved = m.turning_speed;
     return -(moved - m.normal.dot(moved) * m.normal).squaredNorm() / m.distance;
 }
