@@ -226,11 +226,12 @@ bool Predictor::rests_against(int ball, const Partner& partner, double now) cons
     return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
 }
 
-/// A ball in flight along a surface to which gravity is parallel: only rounding presses.
+/// A ball in flight along a surface onto which nothing presses it: only rounding says so.
 bool Predictor::flies_along(int ball, const Partner& partner, double now) const {
     const ExactBall& b = world_.ball(ball);
     return partner.is_surface && b.phase() != Phase::kIsland && b.surface < 0 && !b.piece.curve &&
-           rules_.pressing_gravity(world_.contact_at(ball, partner, now).normal) == 0;
+           rules_.pressing(world_.contact_at(ball, partner, now), now,
+                           world_.velocities(ball, now).linear) == 0;
 }
 
 /// What touches will go on to do so.
