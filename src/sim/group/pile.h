@@ -40,9 +40,8 @@ struct PilePair {
 
 /// A ball of the scene, as far as the pile has to do with it.
 struct PileBall {
-    bool member = false;
-    bool asleep = false;      ///< a member at rest: it does not move until something wakes it
     bool wanted = false;      ///< becomes a member at the next step
+    bool waits = false;       ///< its pairs are still to be found
     BallState at;             ///< at the start of the step
     Velocities after;         ///< at its end
     Velocities started;       ///< at its start, behind the impacts
@@ -63,11 +62,12 @@ struct PileBall {
 /// the speeds. The step is as long as the fastest closing pair allows.
 class Pile {
   public:
-    explicit Pile(const ExactWorld& world);
+    explicit Pile(ExactWorld& world);
 
     bool empty() const { return awake_.empty() && wanted_.empty(); }
-    bool member(int ball) const { return of(ball).member; }
-    bool asleep(int ball) const { return of(ball).asleep; }
+    bool member(int ball) const { return in_pile(world_.ball(ball).phase()); }
+    bool asleep(int ball) const { return world_.ball(ball).phase() == Phase::kPileAsleep; }
+    bool is_awake(int ball) const { return world_.ball(ball).phase() == Phase::kPile; }
     PileBall& of(int ball) { return balls_[static_cast<std::size_t>(ball)]; }
     const PileBall& of(int ball) const { return balls_[static_cast<std::size_t>(ball)]; }
     const std::vector<int>& awake() const { return awake_; }  ///< sorted
@@ -78,14 +78,13 @@ class Pile {
     /// The ball shall be taken in at the next step.
     void want(int ball);
     /// Gathers who takes part in a step that begins now: members, and what comes into their reach.
-    /// `taken` gets the balls that are new, or that woke.
+    /// `taken` gets the balls that are new, or that woke: they are in the phase kPile from now on.
     void gather(double now, const Links& links, std::vector<int>& taken);
     /// Solves the step of what was gathered.
     void solve();
-    /// The ball is no member any more, or a sleeping one.
-    void release(int ball);
+    /// The ball's phase has become kPileAsleep.
     void lay_to_sleep(int ball);
-    /// After releases and sleepers: drops what is no pair any more.
+    /// After some have left or fallen asleep: drops what is no pair any more.
     void tidy();
 
     /// What closes slower does not bounce: gravity makes half of it in the longest step [m/s].
@@ -113,7 +112,7 @@ class Pile {
     Vec3 position_of(int ball, double now) const;
     Vec3 velocity_of(int ball, double now) const;
 
-    const ExactWorld& world_;
+    ExactWorld& world_;
     std::vector<PileBall> balls_;   ///< per ball of the scene
     std::vector<PileBody> bodies_;  ///< the same
     std::vector<int> awake_, wanted_;

@@ -33,7 +33,7 @@ constexpr double kParted = 1e-3;
 
 }  // namespace
 
-Pile::Pile(const ExactWorld& world)
+Pile::Pile(ExactWorld& world)
     : world_(world),
       balls_(world.balls.size()),
       bodies_(world.balls.size()),
@@ -52,18 +52,18 @@ double Pile::slow_speed() const { return 2 * world_.scene.simulation.gravity.nor
 double Pile::separation_gap() const { return kParted * smallest_radius_; }
 
 Vec3 Pile::position_of(int ball, double now) const {
-    return of(ball).member ? of(ball).at.position : world_.position(ball, now);
+    return member(ball) ? of(ball).at.position : world_.position(ball, now);
 }
 
 Vec3 Pile::velocity_of(int ball, double now) const {
-    return of(ball).member ? of(ball).at.velocity : world_.velocities(ball, now).linear;
+    return member(ball) ? of(ball).at.velocity : world_.velocities(ball, now).linear;
 }
 
 // ---- Members
 // ------------------------------------------------------------------------------------
 
 void Pile::want(int ball) {
-    if (of(ball).wanted || (of(ball).member && !of(ball).asleep)) return;
+    if (of(ball).wanted || is_awake(ball)) return;
     of(ball).wanted = true;
     wanted_.push_back(ball);
 }
@@ -71,9 +71,8 @@ void Pile::want(int ball) {
 /// Makes a ball a member that is awake.
 void Pile::take(int ball, double now, double wake_speed, const Links& links) {
     PileBall& b = of(ball);
-    const bool known = b.member;  // it slept: its pairs with those awake are there already
-    b.member = true;
-    b.asleep = b.wanted = false;
+    const bool known = member(ball);  // it slept: its pairs with those awake are there already
+    b.wanted = false;
     b.wake_speed = wake_speed;
     b.lone_steps = 0;
     b.calm_seconds = 0;
@@ -83,17 +82,12 @@ void Pile::take(int ball, double now, double wake_speed, const Links& links) {
                                                1 / body.mass, 1 / (body.inertia_factor * body.mass),
                                                0};
     awake_.insert(std::lower_bound(awake_.begin(), awake_.end(), ball), ball);
-    add_pairs_of(ball, now, links, known);
-}
-
-void Pile::release(int ball) {
-    PileBall& b = of(ball);
-    b.member = b.asleep = b.wanted = false;
+    add_pairs_of(ball, now, links, known);  // asks what has held the ball
+    world_.set_phase(ball, Phase::kPile);
 }
 
 void Pile::lay_to_sleep(int ball) {
     PileBall& b = of(ball);
-    b.asleep = true;
     b.at.velocity.setZero();
     PileBody& as_body = body(ball);
     as_body.velocity.setZero();
@@ -101,12 +95,10 @@ void Pile::lay_to_sleep(int ball) {
 }
 
 void Pile::tidy() {
-    std::erase_if(awake_, [this](int ball) { return !of(ball).member || of(ball).asleep; });
+    std::erase_if(awake_, [this](int ball) { return !is_awake(ball); });
     // Of two sleepers nothing is to be solved; the pair is found again when one wakes.
     std::erase_if(pairs_, [this](const PilePair& p) {
-        const bool awake = of(p.ball).member && !of(p.ball).asleep;
-        return !awake &&
-               (p.other.is_surface || !of(p.other.index).member || of(p.other.index).asleep);
+        return !is_awake(p.ball) && (p.other.is_surface || !is_awake(p.other.index));
     });
 }
 
@@ -116,7 +108,7 @@ void Pile::tidy() {
 /// The pairs of a ball that are not in the list: a member that is awake has its own there.
 void Pile::add_pairs_of(int ball, double now, const Links& links, bool slept) {
     const std::size_t first = pairs_.size();
-    const Vec3 x = position_of(ball, now);
+    const Vec3 x = of(ball).at.position;
     const ExactBall& body = world_.ball(ball);
     const auto add = [&](int a, const Partner& partner, int material) {
         PilePair pair;
@@ -143,7 +135,7 @@ void Pile::add_pairs_of(int ball, double now, const Links& links, bool slept) {
             add(ball, {true, s}, surface.material);
     });
     const auto near = [&](int other) {
-        if (of(other).member && !of(other).asleep) return;
+        if (is_awake(other) && !of(other).waits) return;
         const double reach = skin_ + body.radius + world_.ball(other).radius;
         if ((x - position_of(other, now)).squaredNorm() >= reach * reach) return;
         add(std::min(ball, other), {false, std::max(ball, other)}, world_.ball(other).material);
@@ -162,11 +154,11 @@ void Pile::find_pairs(double now, const Links& links) {
     std::swap(pairs_, old_pairs_);
     std::sort(old_pairs_.begin(), old_pairs_.end(), by_key);
     pairs_.clear();
-    // A member counts as asleep until its turn has come: so each pair comes up once.
-    for (const int ball : awake_) of(ball).asleep = true;
+    // Only members that still wait for their turn are looked at: so each pair comes up once.
+    for (const int ball : awake_) of(ball).waits = true;
     for (const int ball : awake_) {
         add_pairs_of(ball, now, links, false);
-        of(ball).asleep = false;
+        of(ball).waits = false;
     }
     std::sort(pairs_.begin(), pairs_.end(), by_key);
     auto old = old_pairs_.begin();
@@ -210,14 +202,13 @@ void Pile::choose_seconds() {
 bool Pile::draws_in(const PilePair& pair, double now, const Links& links, std::vector<int>& taken) {
     if (pair.other.is_surface) return false;
     const int a = pair.ball, b = pair.other.index;
-    const auto sleeps = [this](int ball) { return of(ball).member && of(ball).asleep; };
     const bool parted = pair.touching && pair.gap > separation_gap();
     for (const auto& [ball, by] : {std::pair{a, b}, std::pair{b, a}}) {
         const PileBall& it = of(ball);
-        if (it.member && !it.asleep) continue;
+        if (is_awake(ball)) continue;
         double wake_speed = 0;
-        bool draws = !it.member && pair.gap < slack_;
-        if (sleeps(ball)) {
+        bool draws = !member(ball) && pair.gap < slack_;
+        if (asleep(ball)) {
             const double speed = std::max(pair.closing, 0.5 * of(by).wake_speed);
             const bool hit = pair.gap < slack_ && speed > slow_speed();
             const double weight = world_.ball(ball).mass * world_.scene.simulation.gravity.norm();
@@ -243,13 +234,13 @@ void Pile::gather(double now, const Links& links, std::vector<int>& taken) {
     }
     double fastest = 0;
     for (int i = 0; i < static_cast<int>(balls_.size()); ++i)
-        if (!of(i).asleep) fastest = std::max(fastest, velocity_of(i, now).squaredNorm());
+        if (!asleep(i)) fastest = std::max(fastest, velocity_of(i, now).squaredNorm());
     const double step = (std::sqrt(fastest) + slow_speed()) * longest_;
     moved_ += 2 * step;
     if (moved_ + 2 * step > skin_) find_pairs(now, links);
     std::sort(wanted_.begin(), wanted_.end());
     for (const int ball : wanted_) {
-        if (!of(ball).wanted || (of(ball).member && !of(ball).asleep)) continue;
+        if (!of(ball).wanted || is_awake(ball)) continue;
         taken.push_back(ball);
         take(ball, now, 0, links);
     }
@@ -262,10 +253,9 @@ void Pile::gather(double now, const Links& links, std::vector<int>& taken) {
         for (; seen < pairs_.size(); ++seen) look_at(pairs_[seen], now);
         choose_seconds();
         more = false;
-        const auto awake = [this](int ball) { return of(ball).member && !of(ball).asleep; };
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             const PilePair& at = pairs_[i];
-            if (at.other.is_surface || (awake(at.ball) && awake(at.other.index))) continue;
+            if (at.other.is_surface || (is_awake(at.ball) && is_awake(at.other.index))) continue;
             const PilePair pair = at;  // what is drawn in makes the list grow
             more |= draws_in(pair, now, links, taken);
         }

@@ -72,7 +72,6 @@ void Piles::want(int ball, double now) {
 void Piles::enter(int ball, double now) {
     links_.drop(ball);
     const BallState at = world_.state(ball, now);
-    world_.set_phase(ball, Phase::kPile);
     world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
 }
 
@@ -164,7 +163,6 @@ bool Piles::leaves_alone(int ball, double now, const Velocities& velocities) {
         if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * pile_.slow_speed())
             return false;
     }
-    pile_.release(ball);
     ExactBall& b = world_.ball(ball);
     if (floor == nullptr) {
         forms_.begin_flight(ball, now, velocities);

@@ -8,8 +8,7 @@
 
 namespace carom {
 
-ExactBalls::ExactBalls(const Scene& s)
-    : scene(s), balls(s.balls.size()), log(s.balls.size()) {
+ExactBalls::ExactBalls(const Scene& s) : scene(s), balls(s.balls.size()), log(s.balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Ball& body = s.balls[i];
         balls[i].radius = body.radius;
@@ -22,18 +21,6 @@ ExactBalls::ExactBalls(const Scene& s)
         piece.acceleration = s.simulation.gravity;
         piece.spin = body.spin;
     }
-}
-
-Vec3 ExactBalls::position(int i, double t) const { return ball(i).piece.position_at(t); }
-
-Velocities ExactBalls::velocities(int i, double t) const {
-    const Piece& p = ball(i).piece;
-    return {p.velocity_at(t), p.spin_at(t)};
-}
-
-Path ExactBalls::path(int i, double t) const {
-    const Piece& p = ball(i).piece;
-    return {p.position_at(t), p.velocity_at(t), p.acceleration_at(t)};
 }
 
 void ExactBalls::set_phase(int i, Phase phase) {

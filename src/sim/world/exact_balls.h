@@ -73,10 +73,16 @@ class ExactBalls {
 
     BallState state(int i, double t) const { return ball(i).piece.at(t); }
     /// The same without the orientation, which is what costs time.
-    Vec3 position(int i, double t) const;
-    Velocities velocities(int i, double t) const;
+    Vec3 position(int i, double t) const { return ball(i).piece.position_at(t); }
+    Velocities velocities(int i, double t) const {
+        const Piece& p = ball(i).piece;
+        return {p.velocity_at(t), p.spin_at(t)};
+    }
     /// The path of a ball's centre from t on.
-    Path path(int i, double t) const;
+    Path path(int i, double t) const {
+        const Piece& p = ball(i).piece;
+        return {p.position_at(t), p.velocity_at(t), p.acceleration_at(t)};
+    }
 
     /// A ball's phase changes: what belongs to the one before is forgotten.
     void set_phase(int i, Phase phase);
