@@ -342,7 +342,7 @@ void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
 void ImpactCluster::press_rest(ImpactSolver& solver, std::vector<Contact>& impacts) {
     find_speeds();
     choose(-std::numeric_limits<double>::infinity());
-    for (Contact& c : solver_contacts_) c.restitution = 0;
+    for (SolverContact& c : solver_contacts_) c.restitution = 0;
     solver.solve(solver_bodies_, solver_contacts_, time_);
     for (std::size_t k = 0; k < here_.size(); ++k)
         bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
