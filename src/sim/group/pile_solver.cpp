@@ -28,7 +28,7 @@ class PileRows {
     }
 
     std::size_t size() const { return rows_.size(); }
-    double relax(std::size_t i) { return relax(rows_[i]); }
+    bool relax(std::size_t i) { return relax(rows_[i]); }
 
   private:
     void prepare(PileRow& row) {
@@ -46,11 +46,11 @@ class PileRows {
         if (row.push > 0) give(row, row.push * row.normal + row.tangential, row.tangential);
     }
 
-    double relax(PileRow& row) {
+    bool relax(PileRow& row) {
         const int since = row.relaxed;
         PileBody& a = body(row.ball);
         PileBody* b = row.other >= 0 ? &body(row.other) : nullptr;
-        if (a.changed <= since && (b == nullptr || b->changed <= since)) return 0;
+        if (a.changed <= since && (b == nullptr || b->changed <= since)) return false;
         row.relaxed = ++clock_;
 
         const Vec3& n = row.normal;
@@ -74,14 +74,13 @@ class PileRows {
         push(a, impulse, turn, 1);
         if (b != nullptr) push(*b, impulse, turn, -1);
         const double size = impulse.norm();
-        const double of_a = size * a.inverse_mass, of_b = b != nullptr ? size * b->inverse_mass : 0;
+        const bool a_moved = size * a.inverse_mass > still_;
+        const bool b_moved = b != nullptr && size * b->inverse_mass > still_;
         // The contact itself is right now: only the others of these bodies are called on.
-        if (of_a > still_) a.changed = clock_ + 1;
-        if (of_b > still_) b->changed = clock_ + 1;
-        const double largest = std::max(of_a, of_b);
-        if (!(largest > still_)) return 0;
-        row.relaxed = ++clock_;
-        return largest;
+        if (a_moved) a.changed = clock_ + 1;
+        if (b_moved) b->changed = clock_ + 1;
+        if (a_moved || b_moved) row.relaxed = ++clock_;
+        return a_moved || b_moved;
     }
 
     PileBody& body(int i) { return bodies_[static_cast<std::size_t>(i)]; }
@@ -103,7 +102,7 @@ void sweep_pile(std::vector<PileBody>& bodies, std::vector<PileRow>& rows,
                 const PileSweeps& sweeps) {
     PileRows contacts(bodies, rows, sweeps.still);
     gauss_seidel(contacts, SweepOrder::kThereAndBack, sweeps.most,
-                 [](double largest) { return !(largest > 0); });
+                 [](bool moved) { return !moved; });
 }
 
 }  // namespace carom

@@ -19,13 +19,13 @@ enum class SweepOrder {
 };
 
 /// Relaxes all rows again and again, at most `most` times. `rows` has size() and relax(i), which
-/// returns the change of speed [m/s] that the row needed, 0 if none that counts. Ends when
+/// returns the change of speed [m/s] that the row needed, or whether it needed one. Ends when
 /// `ends(largest)`, asked after each sweep with the largest change of it, says so.
 template <class Rows, class Ends>
 void gauss_seidel(Rows& rows, SweepOrder order, int most, Ends&& ends) {
     const std::size_t size = rows.size();
     for (int sweep = 0; sweep < most; ++sweep) {
-        double largest = 0;
+        auto largest = decltype(rows.relax(std::size_t{})){};
         if (order == SweepOrder::kForward || sweep % 2 == 0)
             for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, rows.relax(i));
         else

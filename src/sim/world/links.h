@@ -41,7 +41,8 @@ inline bool row_waits(const Link& link, double now) {
     return link.event_due > now * (1 + kSameInstant);
 }
 
-/// Per ball, its links and what it is to its island. A link between two balls stands with both of them.
+/// Per ball, its links and what it is to its island. A link between two balls stands with both of
+/// them.
 class Links {
   public:
     explicit Links(std::size_t balls) : of_(balls), members_(balls) {}
