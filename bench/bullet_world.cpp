@@ -51,6 +51,17 @@ Placed place(const CapsuleShape& capsule) {
             btTransform(to_bullet(turn), to_bullet(Vec3(0.5 * (capsule.from + capsule.to))))};
 }
 
+Placed place(const CylinderShape& cylinder) {
+    const Vec3 axis = cylinder.to - cylinder.from;
+    const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), axis);
+    const btVector3 half(cylinder.radius, cylinder.radius, 0.5 * axis.norm());
+    return {std::make_unique<btCylinderShapeZ>(half),
+            btTransform(to_bullet(turn), to_bullet(Vec3(0.5 * (cylinder.from + cylinder.to))))};
+}
+
+/// Bullet has no torus; no case has one.
+Placed place(const RingShape&) { throw std::invalid_argument("Bullet has no ring"); }
+
 // Bullet's hook for pairs: each object carries the table and its material.
 PairProperties pair_of(const btCollisionObject* a, const btCollisionObject* b) {
     const auto* table = static_cast<const PairTable*>(a->getUserPointer());

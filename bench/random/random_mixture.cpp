@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "draw.h"
@@ -64,6 +65,21 @@ void add_planes(Scene& scene, Draw& draw) {
                             any_material(scene, draw));
 }
 
+/// One of the shapes with round edges.
+SurfaceShape rimmed_shape(const Vec3& at, Draw& draw) {
+    const Vec3 axis = draw.chance(0.4) ? Vec3(Vec3::Unit(draw.integer(0, 2))) : draw.direction();
+    const double radius = draw.log_uniform(0.03, 0.8);
+    if (draw.chance(0.5)) return RingShape{at, axis, radius, radius * draw.log_uniform(0.01, 0.9)};
+    return CylinderShape{at, at + draw.log_uniform(0.01, 1.5) * axis, radius};
+}
+
+void add_rimmed_bodies(Scene& scene, Draw& draw) {
+    for (int i = draw.integer(1, 4); i > 0; --i) {
+        const Vec3 at = draw.in_cube(kHalf);
+        add_surface(scene, rimmed_shape(at, draw), any_material(scene, draw));
+    }
+}
+
 void add_bodies(Scene& scene, Draw& draw) {
     const int bodies = draw.chance(0.3) ? 0 : draw.integer(1, 5);
     for (int i = 0; i < bodies; ++i) {
@@ -95,7 +111,30 @@ double gap_of(const Scene& scene, const Ball& ball) {
     return gap;
 }
 
-/// Moves a ball onto a plane, a sphere, or another ball.
+/// Where a ball touches a shape near its place; not onto boxes and capsules, as the seeds have it.
+struct MoveOnto {
+    const Ball& ball;
+    Vec3 operator()(const PlaneShape& plane) const {
+        const Vec3& p = ball.position;
+        return p + (plane.offset_m + ball.radius - plane.normal.dot(p)) * plane.normal;
+    }
+    Vec3 operator()(const SphereShape& sphere) const {
+        return sphere.center +
+               (sphere.radius + ball.radius) * (ball.position - sphere.center).normalized();
+    }
+    Vec3 operator()(const BoxShape&) const { return ball.position; }
+    Vec3 operator()(const CapsuleShape&) const { return ball.position; }
+    Vec3 operator()(const CylinderShape& cylinder) const { return moved_onto(cylinder); }
+    Vec3 operator()(const RingShape& ring) const { return moved_onto(ring); }
+
+    template <class Shape>
+    Vec3 moved_onto(const Shape& shape) const {
+        const Nearest nearest = nearest_on(shape, ball.position, ball.radius);
+        return ball.position - nearest.gap * nearest.normal;
+    }
+};
+
+/// Moves a ball onto a surface, or another ball.
 void make_touch(const Scene& scene, Draw& draw, Ball& ball) {
     if (!scene.balls.empty() && draw.chance(0.3)) {
         const Ball& other = scene.balls.front();
@@ -109,12 +148,7 @@ void make_touch(const Scene& scene, Draw& draw, Ball& ball) {
     const int last = static_cast<int>(scene.surfaces.size()) - 1;
     const SurfaceShape& shape =
         scene.surfaces[static_cast<std::size_t>(draw.integer(0, last))].shape;
-    if (const auto* plane = std::get_if<PlaneShape>(&shape))
-        ball.position +=
-            (plane->offset_m + ball.radius - plane->normal.dot(ball.position)) * plane->normal;
-    if (const auto* sphere = std::get_if<SphereShape>(&shape))
-        ball.position = sphere->center + (sphere->radius + ball.radius) *
-                                             (ball.position - sphere->center).normalized();
+    ball.position = std::visit(MoveOnto{ball}, shape);
 }
 
 Ball random_ball(Scene& scene, Draw& draw, bool touching) {
@@ -132,7 +166,7 @@ Ball random_ball(Scene& scene, Draw& draw, bool touching) {
 
 }  // namespace
 
-Scene random_mixture(std::uint64_t seed, bool touching) {
+Scene random_mixture(std::uint64_t seed, bool touching, Bodies bodies) {
     Draw draw(seed);
     const double duration = draw.uniform(0.8, 2);
     Scene scene = empty_scene(duration, random_gravity(draw));
@@ -140,7 +174,7 @@ Scene random_mixture(std::uint64_t seed, bool touching) {
     add_materials(scene, draw);
     if (draw.chance(0.95)) {
         add_planes(scene, draw);
-        add_bodies(scene, draw);
+        bodies == Bodies::kRimmed ? add_rimmed_bodies(scene, draw) : add_bodies(scene, draw);
     }
     const int balls = draw.integer(1, 8);
     for (int tries = 0; tries < 40 * balls; ++tries) {

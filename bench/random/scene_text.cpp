@@ -32,6 +32,16 @@ std::string shape_text(const CapsuleShape& capsule) {
                        text(capsule.to), capsule.radius);
 }
 
+std::string shape_text(const CylinderShape& cylinder) {
+    return fmt::format("cylinder: {{from: {}, to: {}, radius: {}}}", text(cylinder.from),
+                       text(cylinder.to), cylinder.radius);
+}
+
+std::string shape_text(const RingShape& ring) {
+    return fmt::format("ring: {{position: {}, axis: {}, radius: {}, tube_radius: {}}}",
+                       text(ring.center), text(ring.axis), ring.radius, ring.tube_radius);
+}
+
 std::string materials_text(const Scene& scene) {
     std::string all;
     for (std::size_t i = 1; i < scene.materials.size(); ++i) {

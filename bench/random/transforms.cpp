@@ -31,6 +31,14 @@ SurfaceShape moved(const CapsuleShape& capsule, const Transform& t) {
     return CapsuleShape{t.place(capsule.from), t.place(capsule.to), capsule.radius};
 }
 
+SurfaceShape moved(const CylinderShape& cylinder, const Transform& t) {
+    return CylinderShape{t.place(cylinder.from), t.place(cylinder.to), cylinder.radius};
+}
+
+SurfaceShape moved(const RingShape& ring, const Transform& t) {
+    return RingShape{t.place(ring.center), t.linear * ring.axis, ring.radius, ring.tube_radius};
+}
+
 /// Changes last digits.
 class Nudge {
   public:
@@ -65,6 +73,14 @@ class Nudge {
     SurfaceShape shape(const CapsuleShape& capsule) {
         const Vec3 from = place(capsule.from);
         return CapsuleShape{from, place(capsule.to), capsule.radius};
+    }
+    SurfaceShape shape(const CylinderShape& cylinder) {
+        const Vec3 from = place(cylinder.from);
+        return CylinderShape{from, place(cylinder.to), cylinder.radius};
+    }
+    SurfaceShape shape(const RingShape& ring) {
+        const Vec3 center = place(ring.center);
+        return RingShape{center, vector(ring.axis).normalized(), ring.radius, ring.tube_radius};
     }
 
   private:

@@ -185,9 +185,13 @@ std::vector<Kind> all_kinds() {
     const auto scenes = [](std::uint64_t seed) {
         return std::vector<Trial>{{seed, scene_text(random_mixture(seed))}};
     };
+    const auto shapes = [](std::uint64_t seed) {
+        return std::vector<Trial>{{seed, scene_text(random_mixture(seed, true, Bodies::kRimmed))}};
+    };
     return {{"tracks", tracks, judge_one},
             {"seams", seams, judge_seams},
             {"scenes", scenes, judge_one},
+            {"shapes", shapes, judge_one},
             {"transforms", make_transforms, judge_transform}};
 }
 

@@ -26,7 +26,7 @@ struct Kind {
     std::function<Verdict(const Trial&, Watch&)> judge;
 };
 
-/// tracks, seams, scenes, transforms.
+/// tracks, seams, scenes, shapes, transforms.
 std::vector<Kind> all_kinds();
 
 // Bounds, see the judges.

@@ -1,5 +1,6 @@
 #include "geometry/feature.h"
 
+#include "geometry/around_axis.h"
 #include "geometry/feature_side.h"
 
 namespace carom {
@@ -82,15 +83,158 @@ Feature feature_of(const BoxShape& box, const CenterMotion& center, double radiu
     return f;
 }
 
+/// A circle whose tube of the radius of `distance` the ball's centre is on.
+Feature circle_feature(const Vec3& middle, const Vec3& axis, double core_radius, double distance) {
+    Feature f;
+    f.origin = middle;
+    f.core_axis = axis;
+    f.core_radius = core_radius;
+    f.distance = distance;
+    return f;
+}
+
+/// The same for a ball at x, of which the circle's hole may hold a part: a ball in the middle of a
+/// hole that is too small for it touches it all around, which holds it along the axis and across.
+Feature circle_or_seat(const Vec3& middle, const Vec3& axis, double core_radius, double distance,
+                       const Vec3& x, double radius) {
+    Feature f = circle_feature(middle, axis, core_radius, distance);
+    if (distance <= core_radius) return f;
+    const AroundAxis at(middle, axis, x);
+    const double centred = kCentred * core_radius;
+    if (at.away > centred) {
+        f.add_round_border(middle, axis, centred, 1);
+        return f;
+    }
+    const double height = std::sqrt((distance - core_radius) * (distance + core_radius));
+    Feature seat;
+    seat.origin = middle + (at.along < 0 ? -1 : 1) * (height - radius) * axis;
+    seat.across = axis * axis.transpose();
+    seat.distance = radius;
+    seat.hold = core_radius / height;
+    seat.add_round_border(middle, axis, centred, -1);
+    return seat;
+}
+
+/// How a centre moves away from an axis. A centre that goes by `around` [m/s] about the axis is
+/// drawn outwards as if pulled by around^2 / away.
+AxisMotion motion_away(const AroundAxis& at, const Vec3& axis, const CenterMotion& center) {
+    const double rate = at.outward.dot(center.v);
+    const double around = axis.cross(at.outward).dot(center.v);
+    const double drawn = at.away > 0 ? around * around / at.away : 0;
+    return {at.away, rate, at.outward.dot(center.pull) + drawn};
+}
+
+Feature end_of(const Vec3& end, const Vec3& outward, const Vec3& axis, double rim, double radius) {
+    Feature f;
+    f.origin = end;
+    f.across = outward * outward.transpose();
+    f.distance = radius;
+    f.add_round_border(end, axis, rim, -1);
+    return f;
+}
+
+Feature shaft_of(const CylinderShape& cylinder, const Vec3& axis, double radius) {
+    Feature f;
+    f.origin = cylinder.from;
+    f.across = across_axis(axis);
+    f.distance = radius + cylinder.radius;
+    f.add_border(axis, axis.dot(cylinder.from));
+    f.add_border(-axis, -axis.dot(cylinder.to));
+    return f;
+}
+
+Feature feature_of(const CylinderShape& cylinder, const CenterMotion& center, double radius) {
+    const Vec3 whole = cylinder.to - cylinder.from, axis = whole.normalized();
+    const double half = 0.5 * whole.norm();
+    const double border = kBorder * (center.x.cwiseAbs().maxCoeff() + radius);
+    const double speed = center.v.norm();
+    const AroundAxis at(cylinder.from, axis, center.x);
+    const double place = at.along - half;
+    int side = side_of({place, axis.dot(center.v), axis.dot(center.pull)}, half, border, speed);
+    const bool beyond_rim =
+        side_of(motion_away(at, axis, center), cylinder.radius, border, speed) > 0;
+    // Through rounding the centre may look inside; then the face that is nearest is the one.
+    if (side == 0 && !beyond_rim && std::abs(place) - half > at.away - cylinder.radius)
+        side = place < 0 ? -1 : 1;
+    if (side == 0) return shaft_of(cylinder, axis, radius);
+    const Vec3& end = side < 0 ? cylinder.from : cylinder.to;
+    const Vec3 outward = side * axis;
+    if (!beyond_rim) return end_of(end, outward, axis, cylinder.radius, radius);
+    Feature f = circle_feature(end, axis, cylinder.radius, radius);
+    f.add_border(outward, outward.dot(end));
+    f.add_round_border(end, axis, cylinder.radius, 1);
+    return f;
+}
+
+Feature feature_of(const RingShape& ring, const CenterMotion& center, double radius) {
+    return circle_or_seat(ring.center, ring.axis, ring.radius, radius + ring.tube_radius, center.x,
+                          radius);
+}
+
 bool has_flat(const PlaneShape&, const Vec3&) { return true; }
 bool has_flat(const SphereShape&, const Vec3&) { return false; }
 bool has_flat(const CapsuleShape&, const Vec3&) { return false; }
+bool has_flat(const CylinderShape& cylinder, const Vec3& normal) {
+    return std::abs((cylinder.to - cylinder.from).normalized().dot(normal)) > 1 - 1e-12;
+}
+bool has_flat(const RingShape&, const Vec3&) { return false; }
 bool has_flat(const BoxShape& box, const Vec3& normal) {
     const Vec3 local = box.orientation.conjugate() * normal;
     return local.cwiseAbs().maxCoeff() > 1 - 1e-12;
 }
 
 }  // namespace
+
+double FeatureBorder::margin(const Vec3& x) const {
+    const double straight = direction.dot(x) - offset;
+    if (slant == 0) return straight;
+    return straight + slant * AroundAxis(origin, axis, x).away;
+}
+
+Vec3 Feature::from_core(const Vec3& x) const {
+    if (!has_circle()) return across * (x - origin);
+    const AroundAxis at(origin, core_axis, x);
+    return (at.away - core_radius) * at.outward + at.along * core_axis;
+}
+
+double Feature::gap_growth(const Vec3& x, const Vec3& way) const {
+    const Vec3 q = from_core(x), after = from_core(x + way);
+    const double sum = hollow ? -(q.norm() + after.norm()) : q.norm() + after.norm();
+    // Of q^2: differences of squares are those of the numbers times their sums.
+    if (!has_circle()) {
+        const Vec3 moved = across * way;
+        return moved.dot(2 * q + moved) / sum;
+    }
+    const AroundAxis from(origin, core_axis, x), to(origin, core_axis, x + way);
+    const double along = core_axis.dot(way);
+    const Vec3 moved = way - along * core_axis;
+    const double out = moved.dot(2 * from.away * from.outward + moved) / (from.away + to.away);
+    return (out * (from.away + to.away - 2 * core_radius) + along * (from.along + to.along)) / sum;
+}
+
+FeatureMotion Feature::motion_at(const Vec3& x, const Vec3& v) const {
+    FeatureMotion m;
+    const Vec3 q = from_core(x);
+    Vec3 q_rate = across * v;
+    m.turning_speed = q_rate;
+    if (has_circle()) {
+        // The nearest point of the circle goes along with what leads around the axis.
+        const AroundAxis at(origin, core_axis, x);
+        const Vec3 around = core_axis.cross(at.outward);
+        q_rate = v - (core_radius / at.away * around.dot(v)) * around;
+        m.turning_speed = v;
+    }
+    m.distance = q.norm();
+    m.gap = m.distance - distance;
+    m.normal = q / m.distance;
+    m.normal_rate = (q_rate - m.normal.dot(q_rate) * m.normal) / m.distance;
+    if (hollow) {
+        m.gap = -m.gap;
+        m.normal = -m.normal;
+        m.normal_rate = -m.normal_rate;
+    }
+    return m;
+}
 
 Feature feature_at(const SurfaceShape& shape, const CenterMotion& center, double radius) {
     return std::visit([&](const auto& s) { return feature_of(s, center, radius); }, shape);

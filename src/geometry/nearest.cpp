@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/around_axis.h"
+
 namespace carom {
 
 namespace {
@@ -17,6 +19,17 @@ Nearest nearest_around(const Vec3& core, double round, const Vec3& center, doubl
     const double distance = d.norm();
     const Vec3 normal = distance > 0 ? Vec3(d / distance) : Vec3::UnitZ();
     return {distance - radius - round, normal, core + round * normal};
+}
+
+/// Of all points within `round` of a circle.
+Nearest nearest_on_circle(const Vec3& middle, const Vec3& axis, double core_radius, double round,
+                          const Vec3& center, double radius) {
+    const AroundAxis at(middle, axis, center);
+    if (at.away > kCentred * core_radius || radius + round <= core_radius)
+        return nearest_around(middle + core_radius * at.outward, round, center, radius);
+    const double gap = std::hypot(core_radius, at.along) - radius - round;
+    const Vec3 normal = at.along < 0 ? Vec3(-axis) : axis;
+    return {gap, normal, center - (gap + radius) * normal};
 }
 
 }  // namespace
@@ -53,6 +66,32 @@ Nearest nearest_on(const SphereShape& sphere, const Vec3& center, double radius)
 Nearest nearest_on(const CapsuleShape& capsule, const Vec3& center, double radius) {
     const Vec3 core = nearest_on_segment(center, capsule.from, capsule.to);
     return nearest_around(core, capsule.radius, center, radius);
+}
+
+Nearest nearest_on(const CylinderShape& cylinder, const Vec3& center, double radius) {
+    const Vec3 whole = cylinder.to - cylinder.from;
+    const double half = 0.5 * whole.norm();
+    const Vec3 axis = whole / (2 * half);
+    const AroundAxis at(0.5 * (cylinder.from + cylinder.to), axis, center);
+    const double side = at.along < 0 ? -1 : 1;
+    const double beyond = side * at.along - half, out = at.away - cylinder.radius;
+    double distance = 0;
+    Vec3 normal;
+    if (out <= 0 && beyond > out) {  // an end, also from within
+        distance = beyond;
+        normal = side * axis;
+    } else if (beyond <= 0) {  // the shaft
+        distance = out;
+        normal = at.outward;
+    } else {  // a rim
+        distance = std::hypot(beyond, out);
+        normal = (side * beyond / distance) * axis + (out / distance) * at.outward;
+    }
+    return {distance - radius, normal, center - distance * normal};
+}
+
+Nearest nearest_on(const RingShape& ring, const Vec3& center, double radius) {
+    return nearest_on_circle(ring.center, ring.axis, ring.radius, ring.tube_radius, center, radius);
 }
 
 Nearest nearest_on(const SurfaceShape& shape, const Vec3& center, double radius) {

@@ -44,7 +44,27 @@ struct CapsuleShape {
     bool operator==(const CapsuleShape&) const = default;
 };
 
-using SurfaceShape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape>;
+/// A solid cylinder with flat ends, whose edges are circles.
+struct CylinderShape {
+    Vec3 from = Vec3::Zero();  ///< middle of one end
+    Vec3 to = Vec3::UnitX();   ///< middle of the other
+    double radius = 0.1;       ///< m
+
+    bool operator==(const CylinderShape&) const = default;
+};
+
+/// A torus: all points within `tube_radius` of a circle.
+struct RingShape {
+    Vec3 center = Vec3::Zero();
+    Vec3 axis = Vec3::UnitZ();  ///< unit, across the circle
+    double radius = 1;          ///< of the circle, m
+    double tube_radius = 0.1;   ///< m, below `radius`
+
+    bool operator==(const RingShape&) const = default;
+};
+
+using SurfaceShape =
+    std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, CylinderShape, RingShape>;
 
 /// Of a set of lambdas, one overloaded function for std::visit.
 template <class... Cases>
@@ -57,9 +77,10 @@ PerShape(Cases...) -> PerShape<Cases...>;
 /// Whether a shape goes on without end: a plane.
 inline bool is_unbounded(const SurfaceShape& shape) {
     return std::visit(
-        PerShape{[](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
-                 [](const SphereShape&) { return false; },
-                 [](const CapsuleShape&) { return false; }},
+        PerShape{
+            [](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
+            [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
+            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }},
         shape);
 }
 

@@ -37,6 +37,14 @@ SurfaceShape moved(const CapsuleShape& capsule, const Vec3& origin) {
     return CapsuleShape{capsule.from - origin, capsule.to - origin, capsule.radius};
 }
 
+SurfaceShape moved(const CylinderShape& cylinder, const Vec3& origin) {
+    return CylinderShape{cylinder.from - origin, cylinder.to - origin, cylinder.radius};
+}
+
+SurfaceShape moved(const RingShape& ring, const Vec3& origin) {
+    return RingShape{ring.center - origin, ring.axis, ring.radius, ring.tube_radius};
+}
+
 }  // namespace
 
 SurfaceShape seen_from(const SurfaceShape& shape, const Vec3& origin) {

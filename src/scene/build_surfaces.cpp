@@ -80,6 +80,37 @@ ReadShape read_capsule(Build& build, const Fields& fields, const Node& node) {
     return {capsule, node.valid};
 }
 
+ReadShape read_cylinder(Build& build, const Fields& fields, const Node& node) {
+    if (!fields.has("from") || !fields.has("to")) return {CylinderShape{}, false};
+    const CylinderShape cylinder{fields.vec3("from"), fields.vec3("to"),
+                                 fields.maybe_number("radius").value_or(1)};
+    if ((cylinder.to - cylinder.from).norm() < kShortest) {
+        build.report.error(*fields.find("to"), "the cylinder's 'from' and 'to' are the same point");
+        return {cylinder, false};
+    }
+    return {cylinder, node.valid};
+}
+
+ReadShape read_ring(Build& build, const Fields& fields, const Node& node) {
+    RingShape ring{fields.vec3("position"), fields.vec3("axis"),
+                   fields.maybe_number("radius").value_or(1),
+                   fields.maybe_number("tube_radius").value_or(0.1)};
+    if (ring.axis.norm() < kShortest) {
+        const Node* axis = fields.find("axis");
+        build.report.error(axis != nullptr ? *axis : node, "the ring's axis has length 0");
+        return {ring, false};
+    }
+    ring.axis.normalize();
+    if (!node.valid) return {ring, false};
+    if (ring.tube_radius >= ring.radius) {
+        build.report.error(*fields.find("tube_radius"),
+                           "the ring's tube_radius must be below its radius, which is that of the "
+                           "tube's middle: else there is no hole");
+        return {ring, false};
+    }
+    return {ring, true};
+}
+
 ReadShape read_shape(Build& build, const Node& surface) {
     const Fields fields = build.fields(Section::kSurface, &surface);
     if (const Node* node = surface.find("plane"))
@@ -89,6 +120,10 @@ ReadShape read_shape(Build& build, const Node& surface) {
         return read_sphere(fields.child("sphere"), *node);
     if (const Node* node = surface.find("capsule"))
         return read_capsule(build, fields.child("capsule"), *node);
+    if (const Node* node = surface.find("cylinder"))
+        return read_cylinder(build, fields.child("cylinder"), *node);
+    if (const Node* node = surface.find("ring"))
+        return read_ring(build, fields.child("ring"), *node);
     return {PlaneShape{}, false};
 }
 
@@ -108,7 +143,7 @@ void build_surfaces(Build& build) {
         const Node* look = fields.find("look");
         surface.look = look == nullptr ? -1 : resolve_look(build, *look);
         if (surface.look < 0)
-            surface.look = std::holds_alternative<PlaneShape>(surface.shape)
+            surface.look = is_unbounded(surface.shape)
                                ? default_look(build, "planes", default_plane_look())
                                : default_look(build, "solids", default_solid_look());
         build.scene.surfaces.push_back(std::move(surface));

@@ -24,6 +24,8 @@ enum class Section {
     kBox,
     kSphere,
     kCapsule,
+    kCylinder,
+    kRing,
     kDefaults,
     kBallDefaults,  ///< the rows of kBall that have `in_defaults`
     kBall,

@@ -19,7 +19,7 @@ Look style_look(LookStyle style);
 /// Planes: a light, calm checker, so that the balls stand out and motion can be judged.
 Look default_plane_look();
 
-/// Boxes, spheres and capsules: neutral grey.
+/// All surfaces but planes: neutral grey.
 Look default_solid_look();
 
 /// Balls without preset: plain colours that repeat after kPaletteSize.

@@ -33,6 +33,14 @@ double numbers_of(const CapsuleShape& capsule) {
     return largest(capsule.from) + largest(capsule.to) + capsule.radius;
 }
 
+double numbers_of(const CylinderShape& cylinder) {
+    return largest(cylinder.from) + largest(cylinder.to) + cylinder.radius;
+}
+
+double numbers_of(const RingShape& ring) {
+    return largest(ring.center) + ring.radius + ring.tube_radius;
+}
+
 /// The radius of what a ball meets, at most its own: what is flat has none.
 double size_of_other(const PlaneShape&, double ball_radius) { return ball_radius; }
 double size_of_other(const BoxShape&, double ball_radius) { return ball_radius; }
@@ -41,6 +49,12 @@ double size_of_other(const SphereShape& sphere, double ball_radius) {
 }
 double size_of_other(const CapsuleShape& capsule, double ball_radius) {
     return std::min(capsule.radius, ball_radius);
+}
+double size_of_other(const CylinderShape& cylinder, double ball_radius) {
+    return std::min(cylinder.radius, ball_radius);
+}
+double size_of_other(const RingShape& ring, double ball_radius) {
+    return std::min(ring.tube_radius, ball_radius);
 }
 
 /// How deep a ball may be in a shape and count as touching it, m.

@@ -43,6 +43,8 @@ surfaces:
   - {name: turned, box: {position: [9, 3, 0.5], size: [1, 1, 0.1], quaternion: [1, 0, 0, 1]}}
   - {name: bump, sphere: {position: [-9, 0, 0], radius: 0.5}}
   - {name: rail, capsule: {from: [-9, 3, 0], to: [-8, 3, 0], radius: 0.05}}
+  - {name: drum, cylinder: {from: [-9, 6, 0], to: [-9, 6, 1], radius: 0.25}}
+  - {name: hoop, ring: {position: [-9, 9, 3], axis: [0, 0, 1], radius: 0.25, tube_radius: 0.01}}
 defaults: {ball: {inertia: 0.5, material: rubber}}
 balls:
   - {name: a, radius: 0.1, position: [0, 0, 1], spin: [0, 1, 0], look: red}
@@ -96,6 +98,12 @@ WRONG = [
     (["surfaces", 1, "box", "quaternion"], [1, 0, 0, 0]),
     (["surfaces", 3, "sphere", "radius"], DELETE),
     (["surfaces", 4, "capsule", "to"], DELETE),
+    (["surfaces", 5, "cylinder", "from"], DELETE),
+    (["surfaces", 5, "cylinder", "radius"], 0),
+    (["surfaces", 5, "cylinder", "length"], 1),
+    (["surfaces", 6, "ring", "tube_radius"], DELETE),
+    (["surfaces", 6, "ring", "radius"], -1),
+    (["surfaces", 6, "ring", "axis"], [0, 1]),
     (["defaults", "ball", "name"], "x"),
     (["defaults", "ball", "inertia"], 0.7),
     (["balls", 0, "name"], "no spaces"),

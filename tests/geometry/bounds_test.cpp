@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/nearest.h"
 #include "geometry/translation.h"
 #include "shapes.h"
@@ -29,6 +32,25 @@ TEST(Bounds, AreAsTightAsTheShape) {
             EXPECT_NEAR(bounds.min()[axis], signed_distance(shape, -far) - kFar, 1e-6)
                 << shape.index();
         }
+    }
+}
+
+/// Every point of the shape lies within, and some at most a little below the sphere.
+TEST(Bounds, SpheresHoldTheShape) {
+    for (const SurfaceShape& shape : one_of_each()) {
+        const SphereAround around = sphere_around(shape);
+        if (is_unbounded(shape)) {
+            EXPECT_EQ(around.radius, HUGE_VAL);
+            continue;
+        }
+        double farthest = 0;
+        for (const Vec3& p : places()) {
+            // Outwards from the middle, through the nearest point of a place far away.
+            const Vec3 far = around.center + 1e6 * (p - around.center).normalized();
+            farthest = std::max(farthest, (nearest_on(shape, far, 0).point - around.center).norm());
+        }
+        EXPECT_LE(farthest, around.radius * (1 + 1e-9)) << shape.index();
+        EXPECT_GE(farthest, around.radius * 0.8) << shape.index();
     }
 }
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "geometry/nearest.h"
 #include "shapes.h"
 
@@ -26,7 +29,7 @@ TEST(Feature, CentersKeepTheirDistanceFromTheCore) {
             if (signed_distance(shape, p) <= 0) continue;
             const Vec3 x = touching(shape, p, 0.2);
             const Feature f = feature_at(shape, {x, Vec3::Zero(), Vec3::Zero()}, 0.2);
-            EXPECT_NEAR((f.across * (x - f.origin)).norm(), f.distance, kRounding)
+            EXPECT_NEAR(f.from_core(x).norm(), f.distance, kRounding)
                 << shape.index() << " at " << p.transpose();
             EXPECT_LT((f.normal_at(x) - nearest_on(shape, x, 0.2).normal).norm(), 10 * kRounding)
                 << shape.index();
@@ -69,6 +72,54 @@ TEST(Feature, PlanesAndFacesAreFlat) {
     EXPECT_FALSE(is_flat(shapes[1], kTurned * Vec3(0.6, 0.8, 0)));
     EXPECT_FALSE(is_flat(shapes[2], Vec3::UnitZ()));
     EXPECT_FALSE(is_flat(shapes[3], Vec3::UnitZ()));
+    const CylinderShape drum{{0, 0, 0}, {0, 3, 4}, 1};
+    EXPECT_TRUE(is_flat(drum, Vec3(0, 0.6, 0.8)));
+    EXPECT_TRUE(is_flat(drum, Vec3(0, -0.6, -0.8)));
+    EXPECT_FALSE(is_flat(drum, Vec3::UnitX()));
+}
+
+TEST(Feature, ACylinderHasEndsAShaftAndRims) {
+    const CylinderShape drum{Vec3::Zero(), {0, 0, 2}, 1};
+    const auto at = [&](const Vec3& x, const Vec3& v = Vec3::Zero()) {
+        return feature_at(drum, {x, v, Vec3::Zero()}, 0.5);
+    };
+    EXPECT_EQ(directions(at({0.3, 0.4, 2.5})), 1);
+    EXPECT_EQ(directions(at({0, 1.5, 1})), 2);
+    EXPECT_TRUE(at({1.3, 0, 2.4}).has_circle());
+    EXPECT_FALSE(at({0.3, 0.4, 2.5}).has_circle());
+    // On the border of an end the motion decides; one that goes along it leaves it outwards.
+    EXPECT_TRUE(at({1, 0, 2.5}, {1, 0, 0}).has_circle());
+    EXPECT_TRUE(at({1, 0, 2.5}, {0, 1, 0}).has_circle());
+    EXPECT_FALSE(at({1, 0, 2.5}, {-1, 0, 0}).has_circle());
+    // Beside it the shaft begins.
+    EXPECT_TRUE(at({0, 1.5, 2}, {0, 0, 1}).has_circle());
+    EXPECT_FALSE(at({0, 1.5, 2}, {0, 0, -1}).has_circle());
+}
+
+/// The rate of the normal is that of what normal_at() says a little earlier and later, for every
+/// feature, along the surface and also away from it.
+TEST(Feature, NormalsTurnAsTheyDoOverAShortTime) {
+    constexpr double kStep = 1e-4;  // what its third power leaves is 1e-12 of a few 1/s
+    double worst = 0;
+    for (const SurfaceShape& shape : one_of_each())
+        for (const Vec3& p : places()) {
+            if (signed_distance(shape, p) <= 0) continue;
+            const Vec3 x = touching(shape, p, 0.2), v(0.7, -0.4, 0.9);
+            const Feature f = feature_at(shape, {x, Vec3::Zero(), Vec3::Zero()}, 0.2);
+            const FeatureMotion m = f.motion_at(x, v);
+            const auto normal = [&](double s) { return f.normal_at(x + s * v); };
+            const Vec3 near = (normal(kStep) - normal(-kStep)) / (2 * kStep);
+            const Vec3 far = (normal(2 * kStep) - normal(-2 * kStep)) / (4 * kStep);
+            worst = std::max(worst, (m.normal_rate - (4 * near - far) / 3).norm());
+            EXPECT_LT((m.normal - f.normal_at(x)).norm(), kRounding);
+            // Along the surface the distance changes at second order by what the law asks.
+            const auto distance = [&](double s) { return f.from_core(x + s * v).norm(); };
+            const double bend =
+                (distance(kStep) + distance(-kStep) - 2 * distance(0)) / (kStep * kStep);
+            EXPECT_NEAR(bend, m.turning_speed.dot(m.normal_rate), 1e-6) << shape.index();
+        }
+    std::printf("rates of normals: within %.2g 1/s\n", worst);
+    EXPECT_LT(worst, 1e-10);
 }
 
 }  // namespace

@@ -35,6 +35,30 @@ TEST(Nearest, OnTheCoreOfWhatIsRoundEveryDirectionIsAsGood) {
                 kRounding);
 }
 
+TEST(Nearest, ACylinderHasEndsAShaftAndRims) {
+    const CylinderShape drum{Vec3::Zero(), {0, 0, 2}, 1};
+    EXPECT_NEAR(nearest_on(drum, {0.3, 0.4, 5}, 0.5).gap, 2.5, kRounding);      // an end
+    EXPECT_NEAR(nearest_on(drum, {3, 4, 1.9}, 0.5).gap, 4 - 0.5, kRounding);    // the shaft
+    EXPECT_NEAR(nearest_on(drum, {2.4, 3.2, 6}, 0.5).gap, 5 - 0.5, kRounding);  // a rim: 3-4-5
+    EXPECT_LT((nearest_on(drum, {2.4, 3.2, 6}, 0.5).normal - Vec3(0.36, 0.48, 0.8)).norm(),
+              kRounding);
+    EXPECT_LT((nearest_on(drum, {2.4, 3.2, 6}, 0.5).point - Vec3(0.6, 0.8, 2)).norm(), kRounding);
+    // Inside, what is nearest counts; on the axis every way to the shaft is as good.
+    EXPECT_NEAR(nearest_on(drum, {0.3, 0.4, 0.4}, 0).gap, -0.4, kRounding);
+    EXPECT_EQ(nearest_on(drum, {0.3, 0.4, 0.4}, 0).normal, Vec3(0, 0, -1));
+    EXPECT_NEAR(nearest_on(CylinderShape{Vec3::Zero(), {0, 0, 9}, 1}, {0, 0, 4}, 0).gap, -1,
+                kRounding);
+}
+
+TEST(Nearest, ARingIsRoundAllAround) {
+    const RingShape ring{Vec3::Zero(), Vec3::UnitZ(), 2, 0.5};
+    EXPECT_NEAR(nearest_on(ring, {0, 0, 0}, 1).gap, 0.5, kRounding);  // in the hole
+    EXPECT_NEAR(nearest_on(ring, {3, 4, 4}, 0.5).gap, 4, kRounding);  // 3-4-5 from the circle
+    EXPECT_LT((nearest_on(ring, {3, 4, 4}, 0.5).normal - Vec3(0.36, 0.48, 0.8)).norm(), kRounding);
+    EXPECT_NEAR(nearest_on(ring, {1.2, 1.6, 0.25}, 0).gap, -0.25, kRounding);  // inside the tube
+    EXPECT_EQ(nearest_on(ring, {1, 0, 0}, 0).normal, Vec3(-1, 0, 0));
+}
+
 TEST(Nearest, TurningAndMovingShapeAndPointChangesNoDistance) {
     const BoxShape box{Vec3::Zero(), {2, 4, 6}, Quat::Identity()};
     const Vec3 move(3, -1, 2);

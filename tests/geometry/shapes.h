@@ -12,7 +12,10 @@ inline const Quat kTurned = Quat(Eigen::AngleAxisd(0.7, Vec3(1, -2, 0.5).normali
 inline std::vector<SurfaceShape> one_of_each() {
     return {PlaneShape{Vec3(1, 2, 2) / 3, 0.4},
             BoxShape{Vec3(0.3, -0.2, 0.5), {1, 2, 0.5}, kTurned},
-            SphereShape{Vec3(-1, 0.5, 2), 0.8}, CapsuleShape{{0, 1, 0}, {1.5, 1.2, -0.4}, 0.3}};
+            SphereShape{Vec3(-1, 0.5, 2), 0.8},
+            CapsuleShape{{0, 1, 0}, {1.5, 1.2, -0.4}, 0.3},
+            CylinderShape{{0.2, -0.4, -0.9}, {1.1, 0.3, 0.2}, 0.6},
+            RingShape{{-0.3, 0.4, 0.7}, Vec3(2, -1, 2) / 3, 1.1, 0.25}};
 }
 
 /// Places around them, inside some of them.

@@ -143,6 +143,21 @@ TEST(EdgeQuality, BodiesMatchSixtyFourSamples) {
     expect_like_reference(scene);
 }
 
+TEST(EdgeQuality, RimsMatchSixtyFourSamples) {
+    HandMadeScene scene;
+    scene.camera({0.6, -4, 1.6}, {0, 0, 0.3}, 32);
+    const int floor = scene.look(LookStyle::kGrid, {0.9, 0.9, 0.88}, {0.5, 0.55, 0.6});
+    const int body = scene.look(LookStyle::kPlain, {0.3, 0.4, 0.5});
+    scene.surface(PlaneShape{}, floor);
+    scene.surface(CylinderShape{{0.5, 0.3, 0}, {0.5, 0.3, 0.6}, 0.3}, body);
+    scene.surface(CylinderShape{{-0.9, 0.2, 0.3}, {-0.4, -0.3, 0.5}, 0.25}, body);
+    scene.surface(CylinderShape{{1.3, 0, 0.5}, {1.3, 0.01, 0.52}, 0.3}, body);
+    scene.surface(RingShape{{-0.2, -0.6, 0.3}, Vec3(0.3, -0.5, 0.8).normalized(), 0.3, 0.02}, body);
+    scene.surface(RingShape{{-0.3, 0.6, 0.9}, Vec3(0.1, -0.9, 0.3).normalized(), 0.25, 0.1}, body);
+    scene.ball({0.3, 0.9, 0.35}, 0.3, scene.look(LookStyle::kPlain, {0.8, 0.2, 0.1}));
+    expect_like_reference(scene);
+}
+
 TEST(ProjectedSphere, HasNoEllipseAroundTheEye) {
     Camera camera;
     camera.from = Vec3::Zero();

@@ -41,6 +41,8 @@ HandMadeScene round_bodies() {
     scene.surface(SphereShape{Vec3(-0.4, -0.2, 0.25), 0.25});
     scene.surface(SphereShape{Vec3(-0.7, 0.3, 0.9), 0.1});
     scene.surface(CapsuleShape{Vec3(-0.2, -0.6, 0.1), Vec3(0.7, -0.7, 0.4), 0.08});
+    scene.surface(CylinderShape{Vec3(0.9, 0.2, 0), Vec3(0.8, 0.3, 0.5), 0.15});
+    scene.surface(RingShape{Vec3(0.2, -0.3, 0.8), Vec3(0.3, -0.5, 0.8).normalized(), 0.3, 0.03});
     return scene;
 }
 

@@ -129,7 +129,8 @@ TEST(Errors, Surfaces) {
         {"surfaces: [{plane: {}}]",
          "2:12: error: the key 'name' is missing, such as 'name: floor'"},
         {"surfaces: [{name: a}]",
-         "2:12: error: one of 'plane', 'box', 'sphere', 'capsule' must stand here"},
+         "2:12: error: one of 'plane', 'box', 'sphere', 'capsule', 'cylinder', 'ring' "
+         "must stand here"},
         {"surfaces: [{name: a, plane: {}, sphere: {radius: 1}}]",
          "2:33: error: 'plane' and 'sphere' cannot stand together"},
         {"surfaces: [{name: a, plane: {normal: [0, 0, 0]}}]",
@@ -148,6 +149,17 @@ TEST(Errors, Surfaces) {
         {"surfaces: [{name: a, capsule: {from: [1, 1, 1], to: [1, 1, 1], radius: 1}}]",
          "2:53: error: the capsule's 'from' and 'to' are the same point; a sphere is written "
          "'sphere: {position: [...], radius: ...}'"},
+        {"surfaces: [{name: a, cylinder: {from: [1, 1, 1], to: [1, 1, 1], radius: 1}}]",
+         "2:54: error: the cylinder's 'from' and 'to' are the same point"},
+        {"surfaces: [{name: a, cylinder: {from: [1, 1, 1], to: [1, 1, 2], radius: 0}}]",
+         "2:76: error: 'radius' must be above 0 m, not 0"},
+        {"surfaces: [{name: a, ring: {radius: 1, tube_radius: 1}}]",
+         "2:53: error: the ring's tube_radius must be below its radius, which is that of the "
+         "tube's middle: else there is no hole"},
+        {"surfaces: [{name: a, ring: {axis: [0, 0, 0], radius: 1, tube_radius: 0.1}}]",
+         "2:35: error: the ring's axis has length 0"},
+        {"surfaces: [{name: a, ring: {radius: 1}}]",
+         "2:28: error: the key 'tube_radius' is missing, such as 'tube_radius: 0.009'"},
         {"surfaces: [{name: a, plane: {}, material: steel}]",
          "2:43: error: there is no material 'steel'; known here: basketball, football, "
          "table_tennis, tennis, volleyball"},
@@ -157,7 +169,7 @@ TEST(Errors, Surfaces) {
          "3:39: error: there is no look 'rde'; did you mean 'red'?"},
         {"surfaces: [{name: a, plane: {}, velocity: [0, 0, 1]}]",
          "2:33: error: unknown key 'velocity'; known here: name, plane, box, sphere, capsule, "
-         "material, look"},
+         "cylinder, ring, material, look"},
         {"surfaces:\n  - {name: a, plane: {}}\n  - {name: a, plane: {}}",
          "4:12: error: the name 'a' is taken already, by the surface in line 3"},
     });

@@ -58,6 +58,17 @@ TEST(Overlap, EveryKindOfSurface) {
     EXPECT_EQ(errors_between(capsule, "radius: 0.5, position: [3, 0, 0]"), "");
     EXPECT_EQ(errors_between(capsule, "radius: 0.5, position: [2.5, 0, 0]"), overlap_text("0.5"));
     EXPECT_EQ(errors_between(capsule, "radius: 0.5, position: [1, 0.5, 0]"), overlap_text("0.5"));
+    const std::string drum = "cylinder: {from: [0, 0, 0], to: [0, 0, 2], radius: 1}";
+    EXPECT_EQ(errors_between(drum, "radius: 0.5, position: [0.5, 0, 2.5]"), "");
+    EXPECT_EQ(errors_between(drum, "radius: 0.5, position: [0, 1.25, 1]"), overlap_text("0.25"));
+    EXPECT_EQ(errors_between(drum, "radius: 0.5, position: [0, 0, 0.75]"), inside_text("1.25"));
+    // 3-4-5 from the rim: 0.5 m away.
+    EXPECT_EQ(errors_between(drum, "radius: 0.5, position: [1.3, 0, 2.4]"), "");
+    EXPECT_EQ(errors_between(drum, "radius: 0.6, position: [1.3, 0, 2.4]"), overlap_text("0.1"));
+    const std::string hoop = "ring: {position: [0, 0, 1], radius: 1, tube_radius: 0.25}";
+    EXPECT_EQ(errors_between(hoop, "radius: 0.75, position: [0, 0, 1]"), "");
+    EXPECT_EQ(errors_between(hoop, "radius: 0.5, position: [0, 0.5, 1]"), overlap_text("0.25"));
+    EXPECT_EQ(errors_between(hoop, "radius: 0.25, position: [1.3, 0, 1.4]"), "");
     const std::string box = "box: {position: [0, 0, 0], size: [2, 4, 6]}";
     EXPECT_EQ(errors_between(box, "radius: 0.5, position: [1.5, 0, 0]"), "");
     EXPECT_EQ(errors_between(box, "radius: 0.5, position: [1.25, 0, 0]"), overlap_text("0.25"));

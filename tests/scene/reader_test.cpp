@@ -35,6 +35,8 @@ surfaces:
   - {name: plate, box: {position: [0, 0, 1], size: [1, 1, 0.001], rotation_deg: [0, 30, 0]}, material: steel}
   - {name: bump,  sphere: {position: [0, 0, 0], radius: 0.5}, material: steel}
   - {name: rail,  capsule: {from: [0, 0, 0], to: [1, 0, 0], radius: 0.05}, material: steel}
+  - {name: drum,  cylinder: {from: [5, 0, 0], to: [5, 0, 1], radius: 0.25}, material: steel}
+  - {name: hoop,  ring: {position: [5, 5, 3], axis: [0, 2, 0], radius: 0.25, tube_radius: 0.01}, material: steel}
 defaults: {ball: {mass: 1.0}}
 balls:
   - {name: a, radius: 0.12, mass: 0.6, inertia: shell, material: rubber, look: red,
@@ -67,7 +69,7 @@ TEST(Reader, ReadsTheContractsExample) {
     EXPECT_EQ(scene.pairs[0].restitution, 0.8);
     EXPECT_EQ(scene.pairs[0].friction, 0.5);
 
-    ASSERT_EQ(scene.surfaces.size(), 4U);
+    ASSERT_EQ(scene.surfaces.size(), 6U);
     EXPECT_EQ(std::get<PlaneShape>(scene.surfaces[0].shape).normal, Vec3(0, 0, 1));
     const BoxShape& plate = std::get<BoxShape>(scene.surfaces[1].shape);
     EXPECT_EQ(plate.size, Vec3(1, 1, 0.001));
@@ -77,6 +79,10 @@ TEST(Reader, ReadsTheContractsExample) {
     EXPECT_EQ(std::get<SphereShape>(scene.surfaces[2].shape).radius, 0.5);
     EXPECT_EQ(std::get<CapsuleShape>(scene.surfaces[3].shape).to, Vec3(1, 0, 0));
     EXPECT_EQ(scene.surfaces[3].material, 1);
+    EXPECT_EQ(std::get<CylinderShape>(scene.surfaces[4].shape),
+              (CylinderShape{Vec3(5, 0, 0), Vec3(5, 0, 1), 0.25}));
+    EXPECT_EQ(std::get<RingShape>(scene.surfaces[5].shape),
+              (RingShape{Vec3(5, 5, 3), Vec3::UnitY(), 0.25, 0.01}));
 
     ASSERT_EQ(scene.balls.size(), 202U);
     const Ball& a = scene.balls[0];
@@ -86,7 +92,7 @@ TEST(Reader, ReadsTheContractsExample) {
     EXPECT_EQ(a.material, 2);
     EXPECT_EQ(scene.looks[static_cast<std::size_t>(a.look)].style, LookStyle::kStriped);
     EXPECT_EQ(scene.looks[static_cast<std::size_t>(a.look)].color.r, 0xc8 / 255.0);
-    EXPECT_EQ(a.mark.line, 25);
+    EXPECT_EQ(a.mark.line, 27);
     const Ball& b = scene.balls[1];
     EXPECT_EQ(b.preset, "basketball");
     EXPECT_EQ(b.position, Vec3(1, 0, 1.8 + b.radius));

@@ -134,10 +134,13 @@ std::optional<double> sampled(const Gap& gap, double seconds) {
 
 TEST(CurvedImpact, TimesAgreeWithSampling) {
     const std::vector<SurfaceShape> shapes = {
-        PlaneShape{Vec3(0.6, 0, 0.8), 0.2}, SphereShape{Vec3(0.2, 0, 0), 0.4},
+        PlaneShape{Vec3(0.6, 0, 0.8), 0.2},
+        SphereShape{Vec3(0.2, 0, 0), 0.4},
         CapsuleShape{Vec3(-0.6, 0, 0), Vec3(0.6, 0.3, 0), 0.1},
         BoxShape{Vec3(0, 0.1, 0), Vec3(0.8, 0.5, 0.3),
-                 Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))}};
+                 Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))},
+        CylinderShape{Vec3(-0.2, 0, 0.1), Vec3(0.3, 0.2, 0), 0.35},
+        RingShape{Vec3(0, 0.1, 0), Vec3(1, 2, 3).normalized(), 0.5, 0.1}};
     std::mt19937 random(11);
     for (const SurfaceShape& shape : shapes) {
         int hits = 0, misses = 0;
@@ -293,10 +296,13 @@ TEST(CurvedImpact, GrazingIsDecidedBySignOnACurve) {
 
 TEST(CurvedImpact, BallOnAShaftMeetsSurfaces) {
     const std::vector<SurfaceShape> walls = {
-        PlaneShape{-Vec3::UnitX(), -0.35}, PlaneShape{Vec3(-0.6, -0.8, 0), -0.3},
+        PlaneShape{-Vec3::UnitX(), -0.35},
+        PlaneShape{Vec3(-0.6, -0.8, 0), -0.3},
         BoxShape{Vec3(0.6, 0.2, 0.3), Vec3(0.3, 0.3, 0.3), Quat::Identity()},
         SphereShape{Vec3(0.5, 0.1, 0.35), 0.12},
-        CapsuleShape{Vec3(0.5, 0, -1), Vec3(0.5, 0.2, 1), 0.05}};
+        CapsuleShape{Vec3(0.5, 0, -1), Vec3(0.5, 0.2, 1), 0.05},
+        CylinderShape{Vec3(0.45, 0.1, 0.5), Vec3(0.5, 0.1, 0.3), 0.2},
+        RingShape{Vec3(0.55, 0, 0.35), Vec3(1, 0.2, 0.3).normalized(), 0.2, 0.08}};
     for (const SurfaceShape& wall : walls) {
         Scene scene = shaft(0.5);
         const Trajectory path = alone(scene, 0, 1);

@@ -114,6 +114,25 @@ TEST(TimeOfImpact, BoxFacesEdgesAndCorners) {
                 "bar");
 }
 
+TEST(TimeOfImpact, CylinderEndsShaftAndRims) {
+    expect_good(shoot(CylinderShape{Vec3(-0.5, 0.2, 0), Vec3(0.6, 0.1, 0.4), 0.4},
+                      Vec3(0.05, 0.15, 0.2), 0.6, 7),
+                "cylinder");
+    expect_good(shoot(CylinderShape{Vec3::Zero(), Vec3(1e-3, 0, 0), 0.7}, Vec3::Zero(), 0.5, 8),
+                "disc");
+    expect_good(shoot(CylinderShape{Vec3(0, -1, 0), Vec3(0, 1, 0), 1e-3}, Vec3::Zero(), 0.4, 9),
+                "needle");
+}
+
+TEST(TimeOfImpact, RingFromAllSides) {
+    const Vec3 axis = Vec3(1, -2, 0.5).normalized();
+    expect_good(shoot(RingShape{Vec3(0.1, 0, -0.2), axis, 0.6, 0.1}, Vec3(0.1, 0, -0.2), 0.6, 10),
+                "ring");
+    // Thinner than the balls, and with a hole that is too small for them.
+    expect_good(shoot(RingShape{Vec3::Zero(), axis, 0.7, 1e-3}, Vec3::Zero(), 0.6, 11), "wire");
+    expect_good(shoot(RingShape{Vec3::Zero(), axis, 0.2, 0.15}, Vec3::Zero(), 0.3, 12), "knob");
+}
+
 TEST(TimeOfImpact, FastBallAgainstThinPlate) {
     for (int phase = 0; phase < 1000; ++phase) {
         const double z0 = 2 + 0.001 * phase;
@@ -141,6 +160,21 @@ TEST(TimeOfImpact, GrazingIsDecidedBySign) {
                       expected);
             EXPECT_EQ(state(Vec3(-4, 0.5 + r + offset, 0),
                             CapsuleShape{Vec3(0, 0, -1), Vec3(0, 0, 1), 0.5}),
+                      expected);
+            EXPECT_EQ(state(Vec3(-4, 0.5 + r + offset, 0),
+                            CylinderShape{Vec3(0, 0, -1), Vec3(0, 0, 1), 0.5}),
+                      expected);
+            // Inside a ring that stands upright, and by its outside.
+            const RingShape ring{Vec3::Zero(), Vec3::UnitZ(), 0.75, 0.25};
+            EXPECT_EQ(state(Vec3(-4, 1 + r + offset, 0), ring), expected);
+            EXPECT_EQ(
+                impact_with_surface({Vec3(0.375 - offset, 0, -4), Vec3(0, 0, speed), Vec3::Zero()},
+                                    r, ring, false, horizon)
+                    .state,
+                expected);
+            // Past the rim, across the top of a circle that stands upright.
+            EXPECT_EQ(state(Vec3(-4, 0.5 + r + offset, 1),
+                            CylinderShape{Vec3(0, 0, -1), Vec3(0, 0, 1), 0.5}),
                       expected);
             // Along a face of a box: it is met at the edge of the face in front.
             EXPECT_EQ(state(Vec3(-4, 0.5 + r + offset, 0),
@@ -182,7 +216,10 @@ TEST(TimeOfImpact, AGapThatCountsAsNoneDoesSoWhenItShutsAgain) {
             const BoxShape box{Vec3(0.3, 0.1, -0.5), Vec3(2, 2, 1), Quat::Identity()};
             const Path path{Vec3(0.2, 0, 0.1 + rounding), Vec3(1e-7, 0, v), g};
             const CapsuleShape rail{Vec3(-1, 0, -0.05), Vec3(1, 0, -0.05), 0.05};
-            for (const SurfaceShape& shape : {SurfaceShape(box), SurfaceShape(rail)}) {
+            const CylinderShape drum{Vec3(0.3, 0.1, -1), Vec3(0.3, 0.1, 0), 1};
+            const CylinderShape roller{Vec3(-1, 0, -0.05), Vec3(1, 0, -0.05), 0.05};
+            for (const SurfaceShape& shape : {SurfaceShape(box), SurfaceShape(rail),
+                                              SurfaceShape(drum), SurfaceShape(roller)}) {
                 const TimeOfImpact found = impact_with_surface(path, 0.1, shape, true, 10);
                 ASSERT_EQ(found.state, ImpactState::kHit) << rounding << ", " << v;
                 EXPECT_LE(std::abs(found.s / (2 * v / 3) - 1), 1e-9);
@@ -215,6 +252,20 @@ TEST(TimeOfImpact, PressedAndReleased) {
                                       true, 9)
                       .state,
                   v2 < 0.5 ? ImpactState::kPressed : ImpactState::kMiss);
+    // On a cylinder's end, and on its rim, along which v^2 / (R + r sin) draws outwards.
+    const CylinderShape drum{Vec3(0, 0, -1), Vec3::Zero(), 0.4};
+    const Vec3 up(0.6, 0, 0.8), on_rim = Vec3(0.4, 0, 0) + 0.1 * up;
+    EXPECT_EQ(
+        impact_with_surface({Vec3(0.2, 0, 0.1), Vec3(9, 0, 0), Vec3(0, 0, -1)}, 0.1, drum, true, 9)
+            .state,
+        ImpactState::kPressed);
+    for (const double part : {0.99, 1.01}) {
+        // g cos = v^2 sin / (R + r sin)
+        const double v = std::sqrt(part * 0.8 * 0.46 / 0.6);
+        EXPECT_EQ(
+            impact_with_surface({on_rim, Vec3(0, v, 0), Vec3(0, 0, -1)}, 0.1, drum, true, 9).state,
+            part < 1 ? ImpactState::kPressed : ImpactState::kMiss);
+    }
     // On the face of a box, and on its edge, from which it may fall.
     const BoxShape box{Vec3::Zero(), Vec3(2, 2, 1), Quat::Identity()};
     EXPECT_EQ(

@@ -15,11 +15,11 @@ namespace {
 constexpr const char* kManyPlanes = "MANY_PLANES";  // they are listed
 
 /// Kinds of bodies, as bits.
-constexpr unsigned kBoxes = 1, kSpheres = 2, kCapsules = 4;
+constexpr unsigned kBoxes = 1, kSpheres = 2, kOthers = 4;
 
 unsigned bodies_in(const SurfaceTable& table) {
     return (table.boxes > 0 ? kBoxes : 0U) | (table.spheres > 0 ? kSpheres : 0U) |
-           (table.capsules > 0 ? kCapsules : 0U);
+           (table.others > 0 ? kOthers : 0U);
 }
 
 /// Of the lists of a rectangle (SurfaceTiles): each has its first entry and the ends of its kinds.
@@ -38,7 +38,12 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
     if (table.planes > kFewPlanes) defines.push_back(kManyPlanes);
     if ((bodies & kBoxes) != 0) defines.push_back("BOXES");
     if ((bodies & kSpheres) != 0) defines.push_back("SPHERES");
-    if ((bodies & kCapsules) != 0) defines.push_back("CAPSULES");
+    if ((bodies & kOthers) != 0) {
+        defines.push_back("OTHERS");
+        if (table.capsules) defines.push_back("CAPSULES");
+        if (table.cylinders) defines.push_back("CYLINDERS");
+        if (table.rings) defines.push_back("RINGS");
+    }
     if (table.checker) defines.push_back("CHECKER");
     if (table.grid) defines.push_back("GRID");
     if (table.checker || table.grid || table.wood || table.court) defines.push_back("PATTERNED");
@@ -61,8 +66,8 @@ GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
     if (std::find(defines.begin(), defines.end(), kManyPlanes) != defines.end())
         vertex_defines.push_back(kManyPlanes);
     sources.vertex = assemble_shader(vertex_defines, {"background_vertex"});
-    sources.fragment =
-        assemble_shader(defines, {"surfaces", "surface_patterns", "background_fragment"});
+    sources.fragment = assemble_shader(defines, {"surfaces", "other_surfaces", "surface_light",
+                                                 "surface_patterns", "background_fragment"});
     sources.attributes = {"a_rectangle", "a_seen", "a_shading", "a_planes"};
     sources.outputs = {"out_color", "out_g_buffer"};  // as BackgroundPicture::targets() has them
     if (kind.occludes) sources.outputs.push_back("out_front");
@@ -142,7 +147,7 @@ void BackgroundDrawing::draw_rectangles(GlProgram& program, const View& view, co
     program.set("u_size", Vec2(view.width_px(), view.height_px()));
     program.set("u_surfaces", 0);
     program.set("u_listed", 1);
-    program.set("u_counts", std::array{table.planes, table.boxes, table.spheres, table.capsules});
+    program.set("u_counts", std::array{table.planes, table.boxes, table.spheres, table.others});
     program.set("u_fade_m", scale.fade_m);
     program.set("u_ao_reach_m", scale.ao_reach_m);
 

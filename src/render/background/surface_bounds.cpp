@@ -1,5 +1,9 @@
 #include "render/background/surface_bounds.h"
 
+#include <cmath>
+
+#include "render/tile/screen_tiles.h"
+
 namespace carom {
 
 namespace {
@@ -41,6 +45,44 @@ SurfaceBound round_bound(const Vec3& from, const Vec3& to, double radius) {
     return bound;
 }
 
+/// A cylinder within eight sides along its shaft.
+SurfaceBound cylinder_bound(const Vec3& from, const Vec3& along, double radius) {
+    SurfaceBound bound;
+    const Vec3 u = along.unitOrthogonal() * radius, v = along.normalized().cross(u);
+    for (const Vec3& end : {from, Vec3(from + along)})
+        for (const Vec3& p : octagon_around(end, u, v)) bound.cores.push_back(p);
+    bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    bound.center = from + 0.5 * along;
+    bound.radius = std::hypot(0.5 * along.norm(), radius);
+    return bound;
+}
+
+/// A ring within a circle of eight sides.
+SurfaceBound ring_bound(const Vec3& center, const Vec3& axis, double radius, double tube) {
+    SurfaceBound bound;
+    const Vec3 u = axis.unitOrthogonal() * radius, v = axis.cross(u);
+    bound.cores = octagon_around(center, u, v);
+    bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    bound.thick = tube;
+    bound.center = center;
+    bound.radius = radius + tube;
+    return bound;
+}
+
+SurfaceBound other_bound(const SurfaceTable& table, int record) {
+    const Eigen::Vector4d end = table.at(record, 0), way = table.at(record, 1);
+    const Vec3 from = end.head<3>(), along = way.head<3>();
+    switch (static_cast<OtherKind>(std::lround(way.w()))) {
+        case OtherKind::kCylinder:
+            return cylinder_bound(from, along, end.w());
+        case OtherKind::kRing:
+            return ring_bound(from, along, end.w(), table.at(record, 2).x());
+        case OtherKind::kCapsule:
+            break;
+    }
+    return round_bound(from, from + along, end.w());
+}
+
 }  // namespace
 
 std::vector<Vec3> SurfaceBound::corners(double around) const {
@@ -61,11 +103,7 @@ std::vector<SurfaceBound> surface_bounds(const SurfaceTable& table) {
         const Eigen::Vector4d sphere = table.at(record, 0);
         bounds.push_back(round_bound(sphere.head<3>(), sphere.head<3>(), sphere.w()));
     }
-    for (int i = 0; i < table.capsules; ++i, ++record) {
-        const Eigen::Vector4d end = table.at(record, 0);
-        const Vec3 from = end.head<3>();
-        bounds.push_back(round_bound(from, from + table.at(record, 1).head<3>(), end.w()));
-    }
+    for (int i = 0; i < table.others; ++i) bounds.push_back(other_bound(table, record++));
     return bounds;
 }
 

@@ -8,9 +8,10 @@
 
 namespace carom {
 
-/// A box, sphere or capsule in view space: the convex hull of cores, widened by `thick`.
+/// A body in view space: the convex hull of cores, widened by `thick`.
 struct SurfaceBound {
-    std::vector<Vec3> cores;     ///< corners of a box, middle of a sphere, ends of a capsule
+    std::vector<Vec3>
+        cores;  ///< corners of a box or around a cylinder, middle of a sphere, ends of a capsule
     std::array<Vec3, 3> axes{};  ///< unit: those of a box, or of view space
     double thick = 0;            ///< 0 for a box
     Vec3 center = Vec3::Zero();
@@ -22,7 +23,7 @@ struct SurfaceBound {
     std::vector<Vec3> corners(double around) const;
 };
 
-/// In the table's order: boxes, spheres, capsules.
+/// In the table's order: boxes, spheres, others.
 std::vector<SurfaceBound> surface_bounds(const SurfaceTable& table);
 
 }  // namespace carom

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
+#include <optional>
+#include <variant>
 
 #include "render/blend/srgb.h"
 #include "render/view/view_space.h"
@@ -78,25 +79,87 @@ Record box_record(const BoxShape& box, const Look& look, const View& view) {
     return record;
 }
 
-/// Records of one kind of shape, in the scene's order; returns how many.
-template <class Shape, class Make>
-int append(const Scene& scene, SurfaceTable& table, const Make& make) {
+Record sphere_record(const SphereShape& sphere, const View& view) {
+    Record record{};
+    put(record, 0, view_point(view, sphere.center), sphere.radius);
+    return record;
+}
+
+Record rod_record(const Vec3& from, const Vec3& to, double radius, OtherKind kind,
+                  const View& view) {
+    Record record{};
+    put(record, 0, view_point(view, from), radius);
+    put(record, 1, view_direction(view, to - from), static_cast<double>(kind));
+    return record;
+}
+
+Record ring_record(const RingShape& ring, const View& view) {
+    Record record{};
+    put(record, 0, view_point(view, ring.center), ring.radius);
+    put(record, 1, view_direction(view, ring.axis), static_cast<double>(OtherKind::kRing));
+    put(record, 2, Vec3(ring.tube_radius, 0, 0), 0);
+    return record;
+}
+
+/// The groups of records, in their order.
+enum class Group { kPlanes, kBoxes, kSpheres, kOthers };
+
+Group group_of(const SurfaceShape& shape) {
+    return std::visit(PerShape{[](const PlaneShape&) { return Group::kPlanes; },
+                               [](const BoxShape&) { return Group::kBoxes; },
+                               [](const SphereShape&) { return Group::kSpheres; },
+                               [](const CapsuleShape&) { return Group::kOthers; },
+                               [](const CylinderShape&) { return Group::kOthers; },
+                               [](const RingShape&) { return Group::kOthers; }},
+                      shape);
+}
+
+/// Empty for what this view does not show.
+std::optional<Record> record_of(const SurfaceShape& shape, const Look& look, const View& view) {
+    using Made = std::optional<Record>;
+    return std::visit(
+        PerShape{[&](const PlaneShape& plane) {
+                     return seen_from_front(plane, view) ? Made(plane_record(plane, look, view))
+                                                         : std::nullopt;
+                 },
+                 [&](const BoxShape& box) { return Made(box_record(box, look, view)); },
+                 [&](const SphereShape& sphere) { return Made(sphere_record(sphere, view)); },
+                 [&](const CapsuleShape& c) {
+                     return Made(rod_record(c.from, c.to, c.radius, OtherKind::kCapsule, view));
+                 },
+                 [&](const CylinderShape& c) {
+                     return Made(rod_record(c.from, c.to, c.radius, OtherKind::kCylinder, view));
+                 },
+                 [&](const RingShape& ring) { return Made(ring_record(ring, view)); }},
+        shape);
+}
+
+void note_kind(const SurfaceShape& shape, SurfaceTable& table) {
+    std::visit(PerShape{[](const PlaneShape&) {}, [](const BoxShape&) {}, [](const SphereShape&) {},
+                        [&](const CapsuleShape&) { table.capsules = true; },
+                        [&](const CylinderShape&) { table.cylinders = true; },
+                        [&](const RingShape&) { table.rings = true; }},
+               shape);
+}
+
+/// Records of one group of shapes, in the scene's order; returns how many.
+int append(const Scene& scene, SurfaceTable& table, Group group, const View& view) {
     int count = 0;
     for (const Surface& surface : scene.surfaces) {
-        const Shape* shape = std::get_if<Shape>(&surface.shape);
-        if (shape == nullptr) continue;
+        if (group_of(surface.shape) != group) continue;
         const Look& look = scene.looks.at(static_cast<std::size_t>(surface.look));
-        Record record{};
         // Also of what this view does not show: programs stay the same as the camera moves.
-        constexpr bool kFlat = std::is_same_v<Shape, PlaneShape> || std::is_same_v<Shape, BoxShape>;
-        table.reflection |= kFlat && look.reflection > 0;
-        if (!make(*shape, look, record)) continue;
-        put_look(record, look);
+        const bool flat = group == Group::kPlanes || group == Group::kBoxes;
+        table.reflection |= flat && look.reflection > 0;
+        std::optional<Record> record = record_of(surface.shape, look, view);
+        if (!record) continue;
+        note_kind(surface.shape, table);
+        put_look(*record, look);
         table.checker |= look.style == LookStyle::kChecker;
         table.grid |= look.style == LookStyle::kGrid;
         table.wood |= look.style == LookStyle::kWood;
         table.court |= look.style == LookStyle::kCourt;
-        table.vec4s.insert(table.vec4s.end(), record.begin(), record.end());
+        table.vec4s.insert(table.vec4s.end(), record->begin(), record->end());
         ++count;
     }
     return count;
@@ -125,28 +188,10 @@ PlaneShape top_of(const BoxShape& box) {
 
 SurfaceTable make_surface_table(const Scene& scene, const View& view) {
     SurfaceTable table;
-    table.planes = append<PlaneShape>(
-        scene, table, [&](const PlaneShape& plane, const Look& look, Record& record) {
-            if (!seen_from_front(plane, view)) return false;
-            record = plane_record(plane, look, view);
-            return true;
-        });
-    table.boxes =
-        append<BoxShape>(scene, table, [&](const BoxShape& box, const Look& look, Record& record) {
-            record = box_record(box, look, view);
-            return true;
-        });
-    table.spheres = append<SphereShape>(
-        scene, table, [&](const SphereShape& sphere, const Look&, Record& record) {
-            put(record, 0, view_point(view, sphere.center), sphere.radius);
-            return true;
-        });
-    table.capsules = append<CapsuleShape>(
-        scene, table, [&](const CapsuleShape& capsule, const Look&, Record& record) {
-            put(record, 0, view_point(view, capsule.from), capsule.radius);
-            put(record, 1, view_direction(view, capsule.to - capsule.from), 0);
-            return true;
-        });
+    table.planes = append(scene, table, Group::kPlanes, view);
+    table.boxes = append(scene, table, Group::kBoxes, view);
+    table.spheres = append(scene, table, Group::kSpheres, view);
+    table.others = append(scene, table, Group::kOthers, view);
     return table;
 }
 

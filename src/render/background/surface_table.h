@@ -8,11 +8,12 @@
 
 namespace carom {
 
-/// Records in the order planes, boxes, spheres, capsules; each kSurfaceVec4s vec4 long:
+/// Records in the order planes, boxes, spheres, others; each kSurfaceVec4s vec4 long:
 ///   plane    0: normal, offset (normal . p = offset)
 ///   box      0: centre, radius around it   1-3: rows of box-from-view, half edge
 ///   sphere   0: centre, radius
-///   capsule  0: one end, radius            1: from that end to the other
+///   others   0: one end, radius            1: from that end to the other, kind (OtherKind)
+///            of a ring 0: centre, radius   1: axis, kind   2: x radius of the tube
 ///   all      4: colour, pattern (0 none, 1 checker, 2 grid, 3 wood, 4 court)
 ///            5: second colour, tile [m]
 ///   plane    1: x reflection
@@ -22,12 +23,16 @@ namespace carom {
 /// A plane that the camera sees from behind is left out: it is a wall cut away for the view.
 constexpr int kSurfaceVec4s = 8;
 
+/// As surfaces.glsl numbers them.
+enum class OtherKind { kCapsule = 0, kCylinder = 1, kRing = 2 };
+
 struct SurfaceTable {
     std::vector<float> vec4s;
     int planes = 0;
     int boxes = 0;
     int spheres = 0;
-    int capsules = 0;
+    int others = 0;
+    bool capsules = false, cylinders = false, rings = false;  ///< are among the others
     /// Some surface has it.
     bool checker = false, grid = false, wood = false, court = false, reflection = false;
     /// One vec4 of a record.
@@ -35,9 +40,10 @@ struct SurfaceTable {
         const auto first = static_cast<std::size_t>(4 * (kSurfaceVec4s * record + slot));
         return Eigen::Vector4f(vec4s.data() + first).cast<double>();
     }
-    int count() const { return planes + boxes + spheres + capsules; }
+    int bodies() const { return boxes + spheres + others; }
+    int count() const { return planes + bodies(); }
     /// A body, which balls can pass behind; also two planes, where balls may stand behind one.
-    bool can_occlude() const { return boxes + spheres + capsules > 0 || planes > 1; }
+    bool can_occlude() const { return bodies() > 0 || planes > 1; }
 };
 
 /// The plane of the box's uppermost face.

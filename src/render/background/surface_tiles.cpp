@@ -315,7 +315,7 @@ void Sorter::mark_mirrors() {
 std::array<float, 4> Sorter::range_of(const Set& set, SurfaceTiles& tiles) {
     const auto [found, is_new] = ranges_.try_emplace(set);
     if (!is_new) return found->second;
-    const std::array<int, 3> kinds = {table_.boxes, table_.spheres, table_.capsules};
+    const std::array<int, 3> kinds = {table_.boxes, table_.spheres, table_.others};
     const auto filled = [&tiles] {
         const std::size_t vec4s = tiles.entries.size() / 4;
         return static_cast<float>(vec4s);
@@ -424,7 +424,7 @@ SurfaceTiles Sorter::sorted() {
 
 SurfaceTiles sort_into_tiles(const SurfaceTable& table, const View& view, const Lights& lights,
                              const PictureScale& scale) {
-    if (table.boxes + table.spheres + table.capsules == 0 && table.planes <= kFewPlanes)
+    if (table.bodies() == 0 && table.planes <= kFewPlanes)
         return all_bodies_everywhere(table, view);
     return Sorter(table, view, lights, scale).sorted();
 }
@@ -432,7 +432,7 @@ SurfaceTiles sort_into_tiles(const SurfaceTable& table, const View& view, const 
 SurfaceTiles all_bodies_everywhere(const SurfaceTable& table, const View& view) {
     SurfaceTiles tiles;
     const auto f = [](int value) { return static_cast<float>(value); };
-    const int boxes = table.boxes, round = boxes + table.spheres, all = round + table.capsules;
+    const int boxes = table.boxes, round = boxes + table.spheres, all = table.bodies();
     tiles.rectangles = {0, 0, f(view.width_px()), f(view.height_px())};
     for (int list = 0; list < 2; ++list)
         tiles.rectangles.insert(tiles.rectangles.end(), {0, f(boxes), f(round), f(all)});

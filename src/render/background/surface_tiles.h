@@ -9,13 +9,13 @@
 
 namespace carom {
 
-/// Rectangles that cover the picture once, each with two lists of bodies (boxes, spheres, capsules
+/// Rectangles that cover the picture once, each with two lists of bodies (boxes, spheres, others
 /// of the table): those that rays through its pixels may meet or pass by within a pixel, and those
 /// that may take light from what is seen there. Bodies that are not listed would change
 /// nothing.
 struct SurfaceTiles {
     /// Per rectangle: left, top, right, bottom [px]; of either list the first entry and where its
-    /// boxes, spheres and capsules end (whole numbers); first entry and end of either list of
+    /// boxes, spheres and others end (whole numbers); first entry and end of either list of
     /// planes. Planes are listed where there are more than kFewPlanes.
     std::vector<float> rectangles;
     static constexpr int kRectangleFloats = 16;

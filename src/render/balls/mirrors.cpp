@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "render/background/surface_table.h"
 #include "render/view/view_space.h"
@@ -33,13 +35,36 @@ Mirror box_mirror(const BoxShape& box, const PlaneShape& top, const View& view) 
     return mirror;
 }
 
+/// Planes and the tops of boxes mirror.
+std::optional<Mirror> mirror_of(const PlaneShape& plane, const View& view) {
+    if (!seen_from_front(plane, view)) return std::nullopt;
+    return plane_mirror(plane, view);
+}
+std::optional<Mirror> mirror_of(const BoxShape& box, const View& view) {
+    const PlaneShape top = top_of(box);
+    if (!seen_from_front(top, view)) return std::nullopt;
+    return box_mirror(box, top, view);
+}
+std::optional<Mirror> mirror_of(const SphereShape&, const View&) { return std::nullopt; }
+std::optional<Mirror> mirror_of(const CapsuleShape&, const View&) { return std::nullopt; }
+std::optional<Mirror> mirror_of(const CylinderShape&, const View&) { return std::nullopt; }
+std::optional<Mirror> mirror_of(const RingShape&, const View&) { return std::nullopt; }
+
+bool can_mirror(const SurfaceShape& shape) {
+    return std::visit(
+        PerShape{
+            [](const PlaneShape&) { return true; }, [](const BoxShape&) { return true; },
+            [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
+            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }},
+        shape);
+}
+
 }  // namespace
 
 bool wants_reflection(const Scene& scene) {
     return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
-        const bool flat = std::holds_alternative<PlaneShape>(surface.shape) ||
-                          std::holds_alternative<BoxShape>(surface.shape);
-        return flat && scene.looks.at(static_cast<std::size_t>(surface.look)).reflection > 0;
+        return can_mirror(surface.shape) &&
+               scene.looks.at(static_cast<std::size_t>(surface.look)).reflection > 0;
     });
 }
 
@@ -48,17 +73,11 @@ std::vector<Mirror> find_mirrors(const Scene& scene, const View& view) {
     for (const Surface& surface : scene.surfaces) {
         const double strength = scene.looks.at(static_cast<std::size_t>(surface.look)).reflection;
         if (!(strength > 0)) continue;
-        if (const auto* plane = std::get_if<PlaneShape>(&surface.shape)) {
-            if (!seen_from_front(*plane, view)) continue;
-            mirrors.push_back(plane_mirror(*plane, view));
-        } else if (const auto* box = std::get_if<BoxShape>(&surface.shape)) {
-            const PlaneShape top = top_of(*box);
-            if (!seen_from_front(top, view)) continue;
-            mirrors.push_back(box_mirror(*box, top, view));
-        } else {
-            continue;
-        }
-        mirrors.back().strength = strength;
+        std::optional<Mirror> mirror =
+            std::visit([&](const auto& shape) { return mirror_of(shape, view); }, surface.shape);
+        if (!mirror) continue;
+        mirror->strength = strength;
+        mirrors.push_back(*mirror);
     }
     return mirrors;
 }

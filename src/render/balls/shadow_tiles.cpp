@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/bounds.h"
 #include "render/background/surface_table.h"
 #include "render/view/view_space.h"
 
@@ -38,15 +39,12 @@ ShadowTiles::ShadowTiles(const Scene& scene, const View& view, const Lights& lig
       seen_(std::move(seen)),
       marked_(grid_.count()) {
     for (const Surface& surface : scene.surfaces) {
-        if (const auto* plane = std::get_if<PlaneShape>(&surface.shape))
+        if (const auto* plane = std::get_if<PlaneShape>(&surface.shape)) {
             add_plane(*plane, view);
-        else if (const auto* box = std::get_if<BoxShape>(&surface.shape))
-            add_body(box->center, 0.5 * box->size.norm(), view);
-        else if (const auto* sphere = std::get_if<SphereShape>(&surface.shape))
-            add_body(sphere->center, sphere->radius, view);
-        else if (const auto* capsule = std::get_if<CapsuleShape>(&surface.shape))
-            add_body(0.5 * (capsule->from + capsule->to),
-                     0.5 * (capsule->to - capsule->from).norm() + capsule->radius, view);
+        } else {
+            const SphereAround around = sphere_around(surface.shape);
+            add_body(around.center, around.radius, view);
+        }
     }
 }
 

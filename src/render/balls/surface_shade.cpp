@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/bounds.h"
+#include "geometry/nearest.h"
 #include "render/view/view_space.h"
 
 namespace carom {
@@ -20,29 +22,8 @@ Quat view_from_world(const View& view) {
     return Quat(m);
 }
 
-Vec3 nearest_point(const SurfaceShape& shape, const Vec3& p) {
-    if (const auto* plane = std::get_if<PlaneShape>(&shape))
-        return p - plane->normal * (plane->normal.dot(p) - plane->offset_m);
-    if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        const Vec3 local = box->orientation.conjugate() * (p - box->center);
-        const Vec3 half = 0.5 * box->size;
-        return box->center + box->orientation * local.cwiseMax(-half).cwiseMin(half);
-    }
-    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
-        const Vec3 out = p - sphere->center;
-        return sphere->center + out * (sphere->radius / std::max(out.norm(), 1e-300));
-    }
-    const auto& capsule = std::get<CapsuleShape>(shape);
-    const Vec3 axis = capsule.to - capsule.from;
-    const double length2 = std::max(axis.squaredNorm(), 1e-300);
-    const double s = std::clamp((p - capsule.from).dot(axis) / length2, 0.0, 1.0);
-    const Vec3 on_axis = capsule.from + s * axis;
-    const Vec3 out = p - on_axis;
-    return on_axis + out * (capsule.radius / std::max(out.norm(), 1e-300));
-}
-
-/// Does the ray from p along l meet the box?
-bool meets_box(const BoxShape& box, const Vec3& p, const Vec3& l) {
+/// Does the ray from p along l meet the body?
+bool meets(const BoxShape& box, const Vec3& p, const Vec3& l) {
     const Vec3 origin = box.orientation.conjugate() * (p - box.center);
     const Vec3 ray = box.orientation.conjugate() * l;
     double enter = 0, leave = std::numeric_limits<double>::infinity();
@@ -58,6 +39,39 @@ bool meets_box(const BoxShape& box, const Vec3& p, const Vec3& l) {
         leave = std::min(leave, std::max(a, b));
     }
     return enter < leave;
+}
+
+bool meets(const CylinderShape& cylinder, const Vec3& p, const Vec3& l) {
+    const Vec3 whole = cylinder.to - cylinder.from, axis = whole.normalized();
+    const Vec3 rel = 0.5 * (cylinder.from + cylinder.to) - p;
+    const double z = axis.dot(rel), slope = axis.dot(l);
+    const Vec3 across = rel - z * axis, ray = l - slope * axis;
+    // Along the axis between the ends, and across it within the radius.
+    const double half = 0.5 * whole.norm(), steep = std::max(std::abs(slope), 1e-12);
+    const double rate = std::max(ray.squaredNorm(), 1e-24), middle = across.dot(ray) / rate;
+    const double reach = cylinder.radius * cylinder.radius - (across - middle * ray).squaredNorm();
+    if (reach <= 0) return false;
+    const double side = std::sqrt(reach / rate), slab = half / steep;
+    const double at = z / std::copysign(steep, slope);
+    return std::max({middle - side, at - slab, 0.0}) < std::min(middle + side, at + slab);
+}
+
+/// Along the ray by its distance from the ring, which is how far it certainly does not meet it.
+bool meets(const RingShape& ring, const Vec3& p, const Vec3& l) {
+    constexpr int kMostSteps = 64;
+    constexpr double kMet = 1e-3;  ///< of the tube: nearer counts as met
+    const Vec3 rel = p - ring.center;
+    const double around = ring.radius + ring.tube_radius, middle = -rel.dot(l);
+    const double reach = around * around - (rel + middle * l).squaredNorm();
+    if (reach <= 0) return false;
+    const double end = middle + std::sqrt(reach);
+    double s = std::max(middle - std::sqrt(reach), 0.0);
+    for (int i = 0; i < kMostSteps && s < end; ++i) {
+        const double gap = nearest_on(ring, p + s * l, 0).gap;
+        if (gap < kMet * ring.tube_radius) return true;
+        s += gap;
+    }
+    return false;
 }
 
 /// Part of a disc of radius r that a disc-like obstacle of radius R hides, centres `across` apart:
@@ -77,6 +91,68 @@ double ray_to_segment(const Vec3& p, const Vec3& l, const Vec3& a, const Vec3& b
     return (at - l * std::max(0.0, at.dot(l))).norm();
 }
 
+/// The shape in view space; `turn` takes world axes to view axes.
+SurfaceShape in_view(const PlaneShape& plane, const View& view, const Quat&) {
+    return PlaneShape{view_direction(view, plane.normal),
+                      plane.offset_m - plane.normal.dot(view.eye())};
+}
+SurfaceShape in_view(const BoxShape& box, const View& view, const Quat& turn) {
+    return BoxShape{view_point(view, box.center), box.size, turn * box.orientation};
+}
+SurfaceShape in_view(const SphereShape& sphere, const View& view, const Quat&) {
+    return SphereShape{view_point(view, sphere.center), sphere.radius};
+}
+SurfaceShape in_view(const CapsuleShape& c, const View& view, const Quat&) {
+    return CapsuleShape{view_point(view, c.from), view_point(view, c.to), c.radius};
+}
+SurfaceShape in_view(const CylinderShape& c, const View& view, const Quat&) {
+    return CylinderShape{view_point(view, c.from), view_point(view, c.to), c.radius};
+}
+
+SurfaceShape in_view(const RingShape& ring, const View& view, const Quat&) {
+    return RingShape{view_point(view, ring.center), view_direction(view, ring.axis), ring.radius,
+                     ring.tube_radius};
+}
+
+/// A ball in the light of the lamp, past a body whose middle is at `along` towards the lamp and at
+/// `across` from the line to it.
+struct InLight {
+    const BallInView& ball;
+    const Vec3 &to_light, &side, &side2;
+    double along, across;
+    double radius;  ///< of the disc over which what hides the lamp is averaged
+};
+
+/// Parallel rays over the disc, on a sunflower spiral.
+template <class Shape>
+double hidden_of_rays(const Shape& shape, const InLight& at) {
+    constexpr int kRays = 48;
+    constexpr double kGoldenTurn = 2.39996322972865332;
+    int hidden = 0;
+    for (int k = 0; k < kRays; ++k) {
+        const double from_middle = at.radius * std::sqrt((k + 0.5) / kRays);
+        const Vec3 start = at.ball.center + from_middle * (std::cos(k * kGoldenTurn) * at.side +
+                                                           std::sin(k * kGoldenTurn) * at.side2);
+        if (meets(shape, start, at.to_light)) ++hidden;
+    }
+    return static_cast<double>(hidden) / kRays;
+}
+
+/// The part of the lamp that the body hides. Planes hide nothing: see surface_light.glsl.
+double hidden_by(const PlaneShape&, const InLight&) { return 0; }
+double hidden_by(const BoxShape& box, const InLight& at) { return hidden_of_rays(box, at); }
+double hidden_by(const SphereShape& sphere, const InLight& at) {
+    return at.along > 0 ? hidden_part(at.across, sphere.radius, at.radius) : 0.0;
+}
+double hidden_by(const CapsuleShape& capsule, const InLight& at) {
+    return hidden_part(ray_to_segment(at.ball.center, at.to_light, capsule.from, capsule.to),
+                       capsule.radius, at.radius);
+}
+double hidden_by(const CylinderShape& cylinder, const InLight& at) {
+    return hidden_of_rays(cylinder, at);
+}
+double hidden_by(const RingShape& ring, const InLight& at) { return hidden_of_rays(ring, at); }
+
 }  // namespace
 
 SurfaceShade::SurfaceShade(const Scene& scene, const View& view, const Lights& lights)
@@ -86,23 +162,12 @@ SurfaceShade::SurfaceShade(const Scene& scene, const View& view, const Lights& l
       tan_radius_(lights.tan_radius) {
     const Quat turn = view_from_world(view);
     for (const Surface& surface : scene.surfaces) {
-        Body body{surface.shape, Vec3::Zero(), std::numeric_limits<double>::infinity()};
-        if (auto* plane = std::get_if<PlaneShape>(&body.shape)) {
-            plane->offset_m -= plane->normal.dot(view.eye());
-            plane->normal = view_direction(view, plane->normal);
-        } else if (auto* box = std::get_if<BoxShape>(&body.shape)) {
-            body.center = box->center = view_point(view, box->center);
-            box->orientation = turn * box->orientation;
-            body.bound = 0.5 * box->size.norm();
-        } else if (auto* sphere = std::get_if<SphereShape>(&body.shape)) {
-            body.center = sphere->center = view_point(view, sphere->center);
-            body.bound = sphere->radius;
-        } else if (auto* capsule = std::get_if<CapsuleShape>(&body.shape)) {
-            capsule->from = view_point(view, capsule->from);
-            capsule->to = view_point(view, capsule->to);
-            body.center = 0.5 * (capsule->from + capsule->to);
-            body.bound = 0.5 * (capsule->to - capsule->from).norm() + capsule->radius;
-        }
+        Body body;
+        body.shape = std::visit([&](const auto& shape) { return in_view(shape, view, turn); },
+                                surface.shape);
+        const SphereAround around = sphere_around(body.shape);
+        body.center = around.center;
+        body.bound = around.radius;
         bodies_.push_back(std::move(body));
     }
 }
@@ -115,32 +180,17 @@ double SurfaceShade::key_past(const Body& body, const BallInView& ball) const {
     const double across = (rel - along * to_light_).norm();
     if (along < -body.bound || across > body.bound + r) return 1;
 
-    if (const auto* sphere = std::get_if<SphereShape>(&body.shape))
-        return along > 0 ? 1 - hidden_part(across, sphere->radius, r) : 1.0;
-    if (const auto* capsule = std::get_if<CapsuleShape>(&body.shape))
-        return 1 - hidden_part(ray_to_segment(ball.center, to_light_, capsule->from, capsule->to),
-                               capsule->radius, r);
-    // A box: parallel rays over the disc, on a sunflower spiral.
-    const auto& box = std::get<BoxShape>(body.shape);
-    constexpr int kRays = 48;
-    constexpr double kGoldenTurn = 2.39996322972865332;
-    int hidden = 0;
-    for (int k = 0; k < kRays; ++k) {
-        const double from_middle = r * std::sqrt((k + 0.5) / kRays);
-        const Vec3 start = ball.center + from_middle * (std::cos(k * kGoldenTurn) * side_ +
-                                                        std::sin(k * kGoldenTurn) * side2_);
-        if (meets_box(box, start, to_light_)) ++hidden;
-    }
-    return 1 - static_cast<double>(hidden) / kRays;
+    const InLight at{ball, to_light_, side_, side2_, along, across, r};
+    return 1 - std::visit([&](const auto& shape) { return hidden_by(shape, at); }, body.shape);
 }
 
 BallShade SurfaceShade::on(const BallInView& ball) const {
     BallShade shade;
     for (const Body& body : bodies_) {
-        const bool is_plane = std::holds_alternative<PlaneShape>(body.shape);
+        const bool is_plane = is_unbounded(body.shape);
         const Vec3 to_body = body.center - ball.center;
         if (is_plane || to_body.norm() < body.bound + (1 + kReach) * ball.radius) {
-            const Vec3 to = nearest_point(body.shape, ball.center) - ball.center;
+            const Vec3 to = nearest_on(body.shape, ball.center, 0).point - ball.center;
             const double distance = to.norm();
             const double gap = std::max(0.0, distance / ball.radius - 1) / kReach;
             const double strength = gap < 1 ? (1 - gap) * (1 - gap) * (1 - gap) : 0.0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <variant>
 
 namespace carom {
 
@@ -50,6 +52,19 @@ Vec3 mean_acceleration(const Piece& piece, double from, double to) {
 
 Box grown(const Box& box, double by) {
     return Box(box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by));
+}
+
+/// Places all around a circle: they lie so close that what is between them stands out by 1 % of its
+/// radius.
+std::vector<Vec3> on_circle(const Vec3& middle, const Vec3& axis, double radius) {
+    constexpr int kPlaces = 24;
+    const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+    std::vector<Vec3> places;
+    for (int i = 0; i < kPlaces; ++i) {
+        const double turn = 2 * std::numbers::pi * i / kPlaces;
+        places.push_back(middle + radius * (std::cos(turn) * u + std::sin(turn) * v));
+    }
+    return places;
 }
 
 }  // namespace
@@ -146,20 +161,42 @@ void MotionExtent::add_surface(const std::vector<Blob>& blobs) {
 }
 
 void MotionExtent::add_surfaces(const Scene& scene) {
+    using Blobs = std::vector<Blob>;
     for (const Surface& surface : scene.surfaces) {
-        if (const auto* box = std::get_if<BoxShape>(&surface.shape)) {
-            std::vector<Blob> corners;
-            for (int i = 0; i < 8; ++i) {
-                const Vec3 half(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
-                corners.push_back(
-                    {box->center + box->orientation * half.cwiseProduct(box->size), 0, 0});
-            }
-            add_surface(corners);
-        } else if (const auto* ball = std::get_if<SphereShape>(&surface.shape)) {
-            add_surface({{ball->center, ball->radius, 0}});
-        } else if (const auto* rail = std::get_if<CapsuleShape>(&surface.shape)) {
-            add_surface({{rail->from, rail->radius, 0}, {rail->to, rail->radius, 0}});
-        }
+        const Blobs blobs = std::visit(
+            PerShape{
+                [](const PlaneShape&) { return Blobs{}; },
+                [](const BoxShape& box) {
+                    Blobs corners;
+                    for (int i = 0; i < 8; ++i) {
+                        const Vec3 half(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+                        corners.push_back(
+                            {box.center + box.orientation * half.cwiseProduct(box.size), 0, 0});
+                    }
+                    return corners;
+                },
+                [](const SphereShape& ball) {
+                    return Blobs{{ball.center, ball.radius, 0}};
+                },
+                [](const CapsuleShape& rail) {
+                    return Blobs{{rail.from, rail.radius, 0}, {rail.to, rail.radius, 0}};
+                },
+                [](const CylinderShape& drum) {
+                    const Vec3 axis = (drum.to - drum.from).normalized();
+                    Blobs rims;
+                    for (const Vec3& end : {drum.from, drum.to})
+                        for (const Vec3& p : on_circle(end, axis, drum.radius))
+                            rims.push_back({p, 0, 0});
+                    return rims;
+                },
+                [](const RingShape& ring) {
+                    Blobs tube;
+                    for (const Vec3& p : on_circle(ring.center, ring.axis, ring.radius))
+                        tube.push_back({p, ring.tube_radius, 0});
+                    return tube;
+                }},
+            surface.shape);
+        if (!blobs.empty()) add_surface(blobs);
     }
 }
 

@@ -1,5 +1,5 @@
-// The background: sky, planes to the horizon, boxes, spheres and capsules, with what the passes
-// of each frame need to know about it. Drawn once per camera.
+// The background: sky, planes to the horizon and bodies, with what the passes of each frame need to
+// know about it. Drawn once per camera.
 
 uniform float u_fade_m;      // distance at which planes have mostly melted into the horizon
 uniform float u_ao_reach_m;  // how far a crevice darkens

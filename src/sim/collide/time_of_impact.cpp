@@ -7,6 +7,7 @@
 
 #include "geometry/feature_side.h"
 #include "geometry/nearest.h"
+#include "sim/collide/conservative_advancement.h"
 
 namespace carom {
 
@@ -282,6 +283,14 @@ TimeOfImpact impact_with(const SphereShape& sphere, const Path& ball, double rad
                          double horizon) {
     return impact_with_sphere(shifted(ball, sphere.center), radius + sphere.radius, touching,
                               horizon);
+}
+TimeOfImpact impact_with(const CylinderShape& cylinder, const Path& ball, double radius,
+                         bool touching, double horizon) {
+    return advance_to_impact(ball, radius, cylinder, touching, horizon);
+}
+TimeOfImpact impact_with(const RingShape& ring, const Path& ball, double radius, bool touching,
+                         double horizon) {
+    return advance_to_impact(ball, radius, ring, touching, horizon);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // When a moving ball first touches a body: the first place where the gap between them would become
-// negative. All gaps are polynomials of time, because both centres move on parabolas.
+// negative. Gaps are polynomials of time, because both centres move on parabolas, except where a
+// rim is round (conservative_advancement.h).
 #pragma once
 
 #include "geometry/shape.h"

@@ -5,6 +5,7 @@
 
 #include "geometry/feature_side.h"
 #include "geometry/nearest.h"
+#include "sim/collide/conservative_advancement.h"
 #include "sim/math/bernstein_roots.h"
 
 namespace carom {
@@ -165,6 +166,31 @@ void offer_features(FirstTouch& first, const HighDegreePath& p, double radius,
     first.offer(round_gap(p, capsule.to, Mat3::Identity(), d), d, 2 * d, side > 0, touched);
 }
 
+template <class Shape>
+TimeOfImpact impact_with(const Shape& shape, const HighDegreePath& ball, double radius,
+                         bool touching) {
+    // Of what touches, the gap of now counts as 0, and so does a later one of the same size.
+    const double none = touching ? std::max(nearest_on(shape, ball.c[0], radius).gap, 0.0) : 0;
+    FirstTouch first(ball, touching);
+    const auto touched = [&](double u) {
+        const Vec3 center = ball.at(u);
+        const double scale =
+            ball.c[0].cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() + ball.reach() + radius;
+        return nearest_on(shape, center, radius).gap <= none + kRounding * scale;
+    };
+    offer_features(first, ball, radius, shape, touched);
+    return first.result();
+}
+
+TimeOfImpact impact_with(const CylinderShape& cylinder, const HighDegreePath& ball, double radius,
+                         bool touching) {
+    return advance_to_impact(ball, radius, cylinder, touching);
+}
+TimeOfImpact impact_with(const RingShape& ring, const HighDegreePath& ball, double radius,
+                         bool touching) {
+    return advance_to_impact(ball, radius, ring, touching);
+}
+
 }  // namespace
 
 Vec3 HighDegreePath::at(double u) const {
@@ -222,19 +248,8 @@ TimeOfImpact impact_with_sphere(const HighDegreePath& path, double distance, boo
 
 TimeOfImpact impact_with_surface(const HighDegreePath& ball, double radius,
                                  const SurfaceShape& shape, bool touching) {
-    const double gap = nearest_on(shape, ball.c[0], radius).gap;
-    if (!touching && gap > ball.reach()) return {};
-    // Of what touches, the gap of now counts as 0, and so does a later one of the same size.
-    const double none = touching ? std::max(gap, 0.0) : 0;
-    FirstTouch first(ball, touching);
-    const auto touched = [&](double u) {
-        const Vec3 center = ball.at(u);
-        const double scale =
-            ball.c[0].cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() + ball.reach() + radius;
-        return nearest_on(shape, center, radius).gap <= none + kRounding * scale;
-    };
-    std::visit([&](const auto& s) { offer_features(first, ball, radius, s, touched); }, shape);
-    return first.result();
+    if (!touching && nearest_on(shape, ball.c[0], radius).gap > ball.reach()) return {};
+    return std::visit([&](const auto& s) { return impact_with(s, ball, radius, touching); }, shape);
 }
 
 double seconds_above(const HighDegreePath& path, const Vec3& direction, double offset) {

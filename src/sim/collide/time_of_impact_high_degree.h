@@ -1,6 +1,6 @@
 // Times of impact of balls of which one at least is on a curved piece (motion/curve.h). All gaps
 // are polynomials of degree up to 16 then; Bernstein's form isolates their roots, so that none is
-// lost.
+// lost. Round rims are the exception (conservative_advancement.h).
 #pragma once
 
 #include <array>

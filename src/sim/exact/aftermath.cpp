@@ -65,7 +65,7 @@ void Aftermath::settle_ball(int ball, double now, const Velocities& velocities,
     bool many = false;
     for (const Contact& c : contacts) {
         double bounce_time = 0;
-        if (!rules_.lasts(c, ball, now, scale.speed, bounce_time)) continue;
+        if (!rules_.lasts(c, ball, now, velocities.linear, scale.speed, bounce_time)) continue;
         if (lasting != nullptr) many = true;
         if (many) notes_.note_landing(*lasting, now, now + bounce_time_left);
         lasting = &c;

@@ -13,20 +13,19 @@ namespace carom {
 struct ExactOptions {
     /// From this many balls on a grid tells who is near whom. The motion does not depend on it.
     std::size_t balls_for_grid = 32;
-    /// From this many boxes, spheres and capsules on a tree tells which ones are near; likewise.
+    /// From this many surfaces but planes on a tree tells which ones are near; likewise.
     std::size_t surfaces_for_tree = 2;
     /// m: gaps up to this may be the rounding of the coordinates that the scene came with
     /// (nearby_origin.h), above that of the coordinates it has here.
     double place_rounding = 0;
 };
 
-/// What it models exactly: flight; impacts with planes, boxes, spheres, capsules and balls, one or
-/// many at an instant; a lasting contact with a flat surface (rest, slide, roll); bouncing series
-/// that end in finite time.
-/// What it integrates (single_motion.h): one ball on a sphere, a capsule, an edge or a corner, or
-/// with a slip that turns, right to 1e-12 of its size and speeds, some tens of pieces a second.
-/// What it steps: from 24 balls on that hang together, or where impacts come too thick to be told
-/// apart, a pile (pile.h), in steps of at most 1/1000 s and 3 % of a radius. With ODE
+/// What it models exactly: flight; impacts with surfaces and balls, one or many at an instant; a
+/// lasting contact with a flat surface (rest, slide, roll); bouncing series that end in finite
+/// time. What it integrates (single_motion.h): one ball on what is round, an edge, a corner or a
+/// rim, or with a slip that turns, right to 1e-12 of its size and speeds, some tens of pieces a
+/// second. What it steps: from 24 balls on that hang together, or where impacts come too thick to
+/// be told apart, a pile (pile.h), in steps of at most 1/1000 s and 3 % of a radius. With ODE
 /// (island_step.h): fewer lasting contacts that act on each other (stacks, grooves), in steps of
 /// 1/4000 s. What comes to rest there costs
 /// nothing until something touches it. Fails with Failure(kRun) naming the bodies and the time if a

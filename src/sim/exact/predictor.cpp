@@ -175,8 +175,8 @@ void Predictor::look_at_ball(Outlook& out, int other, double now) const {
     const Path path_a = world_.path(ball, from), path_b = world_.path(other, from);
     const Path path = path_a.relative_to(path_b);
     const double sum = world_.ball(ball).radius + world_.ball(other).radius;
-    const double reach = sum + world_.touch_tolerance(ball, partner, from, path_a.position,
-                                                      path_b.position, sum);
+    const double reach =
+        sum + world_.touch_tolerance(ball, partner, from, path_a.position, path_b.position, sum);
     const double distance2 = path.position.squaredNorm();
     const double closing = path.position.dot(path.velocity);
     const bool touching = stepped ? rules_.in_reach(world_.contact_at(ball, partner, now))
@@ -226,11 +226,12 @@ bool Predictor::rests_against(int ball, const Partner& partner, double now) cons
     return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
 }
 
-/// A ball in flight along a surface to which gravity is parallel: only rounding presses.
+/// A ball in flight along a surface onto which nothing presses it: only rounding says so.
 bool Predictor::flies_along(int ball, const Partner& partner, double now) const {
     const ExactBall& b = world_.ball(ball);
     return partner.is_surface && b.phase() != Phase::kIsland && b.surface < 0 && !b.piece.curve &&
-           rules_.pressing_gravity(world_.contact_at(ball, partner, now).normal) == 0;
+           rules_.pressing(world_.contact_at(ball, partner, now), now,
+                           world_.velocities(ball, now).linear) == 0;
 }
 
 /// What touches will go on to do so.

@@ -1,5 +1,6 @@
 #include "sim/fixed/ode_world.h"
 
+#include "sim/fixed/surface_geom.h"
 #include "sim/solve/ode_messages.h"
 
 namespace carom {
@@ -40,6 +41,12 @@ dGeomID make_geom(dSpaceID space, const CapsuleShape& capsule) {
     set_pose(geom, 0.5 * (capsule.from + capsule.to), turn);
     return geom;
 }
+
+dGeomID make_geom(dSpaceID space, const CylinderShape& cylinder) {
+    return make_surface_geom(space, cylinder);
+}
+
+dGeomID make_geom(dSpaceID space, const RingShape& ring) { return make_surface_geom(space, ring); }
 
 OdeSpacePtr make_ball_space(std::size_t balls) {
     if (balls < kManyBalls) return OdeSpacePtr(dSimpleSpaceCreate(nullptr));

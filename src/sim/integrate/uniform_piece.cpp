@@ -39,6 +39,8 @@ bool is_steady(const CoupledContacts& system, const CoupledState& state, const C
         // Two balls that touch turn about one another as soon as they move.
         if (c.other >= 0) return false;
         const auto ball = static_cast<std::size_t>(c.ball);
+        // Nor does a ball go straight for longer than an instant where the core is a circle.
+        if (c.feature.has_circle() && !state[ball].v.isZero(0)) return false;
         const Vec3 turning = c.feature.across * f.acceleration[ball];
         const Vec3 pull = turning - turning.dot(at.normal) * at.normal;
         if (at.normal_rate.norm() * c.feature.distance > kSteady * state[ball].v.norm() ||
@@ -50,13 +52,25 @@ bool is_steady(const CoupledContacts& system, const CoupledState& state, const C
     return true;
 }
 
+/// What stays >= 0 within a border while a ball keeps its acceleration: of a round one, the
+/// difference of the squares of both distances from the axis.
+Polynomial room_within(const FeatureBorder& edge, const ContactState& s, const Vec3& acceleration) {
+    if (edge.slant == 0)
+        return {{edge.margin(s.x), edge.direction.dot(s.v), 0.5 * edge.direction.dot(acceleration),
+                 0, 0}};
+    const auto across = [&edge](const Vec3& v) -> Vec3 { return v - edge.axis.dot(v) * edge.axis; };
+    const Vec3 p = across(s.x - edge.origin), v = across(s.v), half = 0.5 * across(acceleration);
+    const double sum = p.norm() + edge.offset / edge.slant;
+    return {{sum * edge.margin(s.x), edge.slant * 2 * p.dot(v),
+             edge.slant * (v.squaredNorm() + 2 * p.dot(half)), edge.slant * 2 * v.dot(half),
+             edge.slant * half.squaredNorm()}};
+}
+
 double seconds_on(const CoupledContact& c, const ContactState& s, const Vec3& acceleration,
                   double horizon) {
     for (int k = 0; k < c.feature.border_count; ++k) {
         const FeatureBorder& edge = c.feature.borders[static_cast<std::size_t>(k)];
-        const Polynomial room{{edge.margin(s.x), edge.direction.dot(s.v),
-                               0.5 * edge.direction.dot(acceleration), 0, 0}};
-        const Roots out = downward_crossings(room, horizon);
+        const Roots out = downward_crossings(room_within(edge, s, acceleration), horizon);
         if (out.count > 0) horizon = std::min(horizon, out.at[0]);
     }
     return horizon;

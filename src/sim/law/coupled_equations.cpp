@@ -25,22 +25,26 @@ ContactMotion contact_motion(const CoupledContacts& system, const CoupledContact
                              const CoupledState& state) {
     const ContactState& a = state[static_cast<std::size_t>(c.ball)];
     ContactMotion m;
-    Vec3 q, v = a.v;
+    Vec3 v = a.v;
     m.turn_speed = system.balls[static_cast<std::size_t>(c.ball)].radius * a.w;
     if (c.other < 0) {
-        q = c.feature.across * (a.x - c.feature.origin);
-        m.across_speed = c.feature.across * a.v;
+        const FeatureMotion around = c.feature.motion_at(a.x, a.v);
+        m.n = around.normal;
+        m.n_rate = around.normal_rate;
+        m.gap = around.gap;
+        m.across_speed = around.turning_speed;
     } else {
         const ContactState& b = state[static_cast<std::size_t>(c.other)];
-        q = a.x - b.x;
+        const Vec3 q = a.x - b.x;
         v -= b.v;
         m.across_speed = v;
         m.turn_speed += system.balls[static_cast<std::size_t>(c.other)].radius * b.w;
+        const double distance = q.norm();
+        m.gap = distance - c.feature.distance;
+        m.n = q / distance;
+        m.n_rate = (m.across_speed - m.n.dot(m.across_speed) * m.n) / distance;
     }
-    m.distance = q.norm();
-    m.n = q / m.distance;
     m.speed = m.n.dot(v);
-    m.n_rate = (m.across_speed - m.n.dot(m.across_speed) * m.n) / m.distance;
     m.slip = v - m.speed * m.n - m.turn_speed.cross(m.n);
     return m;
 }

@@ -15,7 +15,7 @@ using ForceSizes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostForces, 1>;
 /// Geometry and relative motion at a contact, seen from its `ball`.
 struct ContactMotion {
     Vec3 n, n_rate, across_speed, turn_speed, slip;
-    double distance = 0, speed = 0;
+    double gap = 0, speed = 0;
 };
 using ContactMotions = std::array<ContactMotion, kMostCoupledContacts>;
 

@@ -154,8 +154,7 @@ void project(const CoupledContacts& system, CoupledState& state) {
         ForceSizes wanted(static_cast<Eigen::Index>(equations.count()));
         for (std::size_t i = 0; i < equations.count(); ++i) {
             const std::size_t contact = equations.row(i).contact;
-            wanted[static_cast<Eigen::Index>(i)] =
-                system.contacts[contact].feature.distance - at[contact].distance;
+            wanted[static_cast<Eigen::Index>(i)] = -at[contact].gap;
         }
         CoupledChange change;
         equations.apply(equations.solve(wanted), change);

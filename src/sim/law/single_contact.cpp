@@ -23,12 +23,10 @@ SingleContact single_contact(const SurfaceShape& shape, const Vec3& x, const Vec
 SingleContactForces single_contact_forces(const SingleContact& c, ContactMode mode,
                                           const ContactState& state) {
     SingleContactForces r;
-    const Vec3 q = c.across * (state.x - c.origin);
-    const double distance = q.norm();
-    r.normal = q / distance;
+    const FeatureMotion motion = c.motion_at(state.x, state.v);
+    r.normal = motion.normal;
+    r.normal_rate = motion.normal_rate;
     const Vec3& n = r.normal;
-    const Vec3 turning = c.across * state.v;
-    r.normal_rate = (turning - n.dot(turning) * n) / distance;
     const double g_n = -c.gravity.dot(n);
     r.push = g_n - state.v.dot(r.normal_rate);
     r.acceleration = c.gravity + r.push * n;
@@ -84,10 +82,8 @@ double energy_in_play(const ContactState& s, double radius, double inertia_facto
 }
 
 void project(const SingleContact& c, ContactMode mode, ContactState& state) {
-    const Vec3 q = c.across * (state.x - c.origin);
-    const double distance = q.norm();
-    const Vec3 n = q / distance;
-    state.x += (c.distance - distance) * n;
+    const Vec3 n = c.normal_at(state.x);
+    state.x -= c.gap_at(state.x) * n;
     state.v -= n.dot(state.v) * n;
     if (mode == ContactMode::kRolling) state.w = state.w.dot(n) * n + n.cross(state.v) / c.radius;
 }

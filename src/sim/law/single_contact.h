@@ -1,5 +1,6 @@
 // One ball that stays in contact with one surface where the motion has no closed form: on a sphere,
-// a capsule, an edge or a corner, or with a slip that turns across a slope. Its laws of motion.
+// a capsule, a rim, an edge or a corner, or with a slip that turns across a slope. Its laws of
+// motion.
 #pragma once
 
 #include "geometry/feature.h"
@@ -53,7 +54,8 @@ struct SingleContactForces {
 ///   s' = b + (1 + 1/k) f,  b = g_t - R (w.n) n x n'.
 /// Sliding: f = -mu N s/|s|. Rolling keeps s = 0: f = -k/(1+k) b, which Coulomb allows up to mu N.
 /// (E. J. Routh, Dynamics of a System of Rigid Bodies, Advanced Part, 1905, ch. V; the term with
-/// w.n turns a ball that rolls obliquely on a cylinder.)
+/// w.n turns a ball that rolls obliquely on a cylinder.) What n' is for a velocity is the feature's
+/// to say (Feature::motion_at): all that the law knows of the surface's curvatures.
 SingleContactForces single_contact_forces(const SingleContact& contact, ContactMode mode,
                                           const ContactState& state);
 

@@ -28,6 +28,23 @@ double seconds_on(const SphereShape&, const Piece&, double, const Vec3&, double)
 double seconds_on(const CapsuleShape&, const Piece&, double, const Vec3&, double) {
     return kInfinity;
 }
+double seconds_on(const RingShape&, const Piece&, double, const Vec3&, double) { return kInfinity; }
+double seconds_on(const CylinderShape& cylinder, const Piece& piece, double radius, const Vec3&,
+                  double horizon) {
+    const Vec3 axis = (cylinder.to - cylinder.from).normalized();
+    const auto across = [&axis](const Vec3& v) -> Vec3 { return v - axis.dot(v) * axis; };
+    const double border = kBorder * (piece.position.cwiseAbs().maxCoeff() + radius);
+    const Vec3 p = across(piece.position - cylinder.from), v = across(piece.velocity),
+               half = 0.5 * across(piece.acceleration);
+    double room = cylinder.radius - p.norm();
+    if (room <= border) room += 2 * border;
+    // R^2 - |p + v s + a s^2 / 2|^2
+    const Polynomial inside{{room * (cylinder.radius + p.norm()), -2 * p.dot(v),
+                             -v.squaredNorm() - 2 * p.dot(half), -2 * v.dot(half),
+                             -half.squaredNorm()}};
+    const Roots out = downward_crossings(inside, horizon);
+    return out.count > 0 ? out.at[0] : kInfinity;
+}
 double seconds_on(const BoxShape& box, const Piece& piece, double radius, const Vec3& normal,
                   double horizon) {
     const Mat3 world_from_box = box.orientation.toRotationMatrix();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/convexity.h"
+#include "geometry/feature.h"
 #include "sim/group/island_step.h"
 
 namespace carom {
@@ -36,6 +38,19 @@ double ContactRules::pressing_gravity(const Vec3& normal) const {
     return g_n > 1e-14 * g.norm() ? g_n : 0;
 }
 
+double ContactRules::pressing(const Contact& c, double now, const Vec3& velocity) const {
+    if (!c.other.is_surface || is_convex(world_.surface(c.other.index).shape))
+        return pressing_gravity(c.normal);
+    const Vec3 x = world_.position(c.ball, now), v = tangential_part(velocity, c.normal);
+    const Vec3& g = world_.scene.simulation.gravity;
+    const FeatureMotion motion =
+        feature_at(world_.surface(c.other.index).shape, {x, v, g}, world_.ball(c.ball).radius)
+            .motion_at(x, v);
+    const double bend = -motion.turning_speed.dot(motion.normal_rate);
+    const double sum = bend - g.dot(c.normal);
+    return sum > 1e-14 * (g.norm() + std::abs(bend)) ? sum : 0;
+}
+
 double ContactRules::slip_tolerance(int ball, double now, const Velocities& velocities) const {
     const double time_rounding = 8 * std::numeric_limits<double>::epsilon() * now;
     return kStillFraction *
@@ -52,10 +67,11 @@ bool ContactRules::approaches_at_start(int ball, const std::vector<Contact>& con
     });
 }
 
-bool ContactRules::lasts(const Contact& c, int ball, double now, double speed_scale,
-                         double& bounce_time_left) const {
-    const double g_n = pressing_gravity(c.normal);
-    if (!c.other.is_surface || g_n == 0) return false;
+bool ContactRules::lasts(const Contact& c, int ball, double now, const Vec3& velocity,
+                         double speed_scale, double& bounce_time_left) const {
+    if (!c.other.is_surface) return false;
+    const double g_n = pressing(c, now, velocity);
+    if (g_n == 0) return false;
     const double v = std::max(c.separation_speed, 0.0);
     bounce_time_left = 0;
     if (v <= kStillFraction * speed_scale) return true;

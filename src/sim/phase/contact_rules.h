@@ -19,15 +19,20 @@ class ContactRules {
     double hop_limit(int ball, const Vec3& position) const;
     /// What gravity presses with along a normal, m/s^2; 0 where that is none, but for rounding.
     double pressing_gravity(const Vec3& normal) const;
+    /// What presses a ball of the velocity `velocity` [m/s] onto a surface, m/s^2: gravity, and on
+    /// a surface that bends towards the ball, such as the inside of a ring, its own motion along
+    /// it.
+    double pressing(const Contact& contact, double now, const Vec3& velocity) const;
     /// m/s: a slip is none if it is rounding of the velocities, or ends within that of the time.
     double slip_tolerance(int ball, double now, const Velocities& velocities) const;
     /// Whether one of the contacts that a ball has at the start is an impact: it approaches, and
     /// faster than in the bounces that would be summed.
     bool approaches_at_start(int ball, const std::vector<Contact>& contacts) const;
     /// Whether a contact that does not approach is a lasting one; `bounce_time_left` [s] is how
-    /// long its remaining bounces take: 2 v / (g_n (1 - e)), v the separation speed.
-    bool lasts(const Contact& contact, int ball, double now, double speed_scale,
-               double& bounce_time_left) const;
+    /// long its remaining bounces take: 2 v / (g_n (1 - e)), v the separation speed and g_n what
+    /// presses at `velocity` [m/s].
+    bool lasts(const Contact& contact, int ball, double now, const Vec3& velocity,
+               double speed_scale, double& bounce_time_left) const;
 
     /// Whether the two of an island are near enough to touch: to rounding, or, where ODE steps one
     /// of them, to what a step can tell.

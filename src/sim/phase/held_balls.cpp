@@ -1,6 +1,7 @@
 #include "sim/phase/held_balls.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "sim/world/seams.h"
@@ -14,6 +15,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Gravity along the surface counts as none below this fraction: a few roundings.
 constexpr double kBalanced = 1e-14;
 
+/// A ball in a hole that is too small for it sits there once it is slower than this part of
+/// sqrt(g r): the bounces between the hole's sides that are left have no end.
+constexpr double kSeated = 1e-6;
+
 /// When so many phases have ended at once at an instant, the next one has to go on.
 constexpr int kMostAtOnce = 4;
 
@@ -25,6 +30,13 @@ constexpr int kMostInVain = 40;
 constexpr double kFirstStepped = 1e-3;
 
 bool is_plane(const SingleContact& contact) { return contact.across.trace() < 1.5; }
+
+/// Ends what is left of a ball's motion in a hole that holds it all around. Friction leaves of its
+/// spin the part about the hole's axis.
+void sit(IntegratedPhase& phase, const Vec3& axis) {
+    phase.state.v.setZero();
+    if (phase.contact.friction > 0) phase.state.w = phase.state.w.dot(axis) * axis;
+}
 
 }  // namespace
 
@@ -114,9 +126,12 @@ HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const C
         choose_mode(phase, rules_.slip_tolerance(ball, now, velocities));
     if (!(forces.push > lift_off_threshold(phase.contact, phase.state.x)))
         return lift_off(ball, now, contact.other, forces.normal);
-    const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
     Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
-    const bool rests = still && pull.norm() <= kBalanced * gravity.norm();
+    const bool seated = pull.norm() < phase.contact.hold * forces.push &&
+                        phase.state.v.norm() < kSeated * std::sqrt(gravity.norm() * body.radius);
+    if (seated) sit(phase, forces.normal);
+    const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
+    const bool rests = seated || (still && pull.norm() <= kBalanced * gravity.norm());
     forms_.hold(ball, now, Phase::kIntegrated, contact.other.index, forces.normal,
                 rests ? EventKind::kRest : kind_of(phase.mode), onset);
     if (!rests) return advance(ball, now);

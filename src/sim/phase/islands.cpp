@@ -120,12 +120,13 @@ bool Islands::leave(int ball, double now) {
     const Contact contact = world_.contact_at(ball, link.partner, now);
     // It joined because it met something: where nothing else tells whether the contact presses, a
     // step does.
-    const bool presses = !world_.ball(ball).coarse && rules_.pressing_gravity(contact.normal) > 0 &&
+    const double pressed_by = rules_.pressing(contact, now, velocities.linear);
+    const bool presses = !world_.ball(ball).coarse && pressed_by > 0 &&
                          notes_.separation_of(contact, now) == nullptr;
     const double v = velocities.linear.dot(contact.normal);
     // Nothing brings it back.
     const bool parts =
-        !world_.ball(ball).coarse && rules_.pressing_gravity(contact.normal) == 0 &&
+        !world_.ball(ball).coarse && pressed_by == 0 &&
         notes_.landing_of(contact, now) == nullptr &&
         v > kStillFraction * velocities.linear.norm() + world_.ball(ball).rounding_speed;
     if (links_.member(ball).steps == 0 && !presses && !parts) return false;

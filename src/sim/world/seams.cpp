@@ -43,10 +43,10 @@ SingleContact feature_at(const ExactWorld& world, const Contact& c, const Vec3& 
 
 /// The least acceleration along the normal that keeps a centre out of a feature [m/s^2].
 double demand_of(const SingleContact& feature, const Vec3& x, const Vec3& v) {
-    const Vec3 q = feature.across * (x - feature.origin), moved = feature.across * v;
-    const double distance = q.norm();
-    const Vec3 n = q / distance;
-    return -(moved - n.dot(moved) * n).squaredNorm() / distance;
+    const FeatureMotion m = feature.motion_at(x, v);
+    if (feature.has_circle() || feature.hollow) return -m.turning_speed.dot(m.normal_rate);
+    const Vec3& moved = m.turning_speed;
+    return -(moved - m.normal.dot(moved) * m.normal).squaredNorm() / m.distance;
 }
 
 /// The part of a vector along a surface; none where it is the rounding of the normal.
@@ -83,7 +83,7 @@ Contact contact_with(const ExactWorld& world, Contact c, const SingleContact& fe
                      const Vec3& x) {
     const double radius = world.ball(c.ball).radius;
     c.normal = feature.normal_at(x);
-    c.depth = feature.distance - (feature.across * (x - feature.origin)).norm();
+    c.depth = -feature.gap_at(x);
     c.point = x - (radius - c.depth) * c.normal;
     c.arm = -radius * c.normal;
     return c;

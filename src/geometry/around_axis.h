@@ -1,0 +1,27 @@
+// A place seen from an axis.
+#pragma once
+
+#include "core/types.h"
+
+namespace carom {
+
+/// A ball whose centre is no farther from the axis of a hole than this part of the hole's radius is
+/// in its middle: some thousand roundings.
+inline constexpr double kCentred = 1e-12;
+
+struct AroundAxis {
+    double along = 0;  ///< m, from the origin along the axis
+    double away = 0;   ///< m, from the axis
+    /// Unit, across the axis, towards the place; on the axis itself every direction is as good.
+    Vec3 outward = Vec3::UnitX();
+
+    AroundAxis(const Vec3& origin, const Vec3& axis, const Vec3& place) {
+        const Vec3 from_origin = place - origin;
+        along = axis.dot(from_origin);
+        const Vec3 across = from_origin - along * axis;
+        away = across.norm();
+        outward = away > 0 ? Vec3(across / away) : Vec3(axis.unitOrthogonal());
+    }
+};
+
+}  // namespace carom
