@@ -152,7 +152,7 @@ TEST(Errors, Surfaces) {
         {"surfaces: [{name: a, cylinder: {from: [1, 1, 1], to: [1, 1, 1], radius: 1}}]",
          "2:54: error: the cylinder's 'from' and 'to' are the same point"},
         {"surfaces: [{name: a, cylinder: {from: [1, 1, 1], to: [1, 1, 2], radius: 0}}]",
-         "2:76: error: 'radius' must be above 0 m, not 0"},
+         "2:73: error: 'radius' must be above 0 m, not 0"},
         {"surfaces: [{name: a, ring: {radius: 1, tube_radius: 1}}]",
          "2:53: error: the ring's tube_radius must be below its radius, which is that of the "
          "tube's middle: else there is no hole"},

@@ -1,6 +1,9 @@
 // Rays and distances of bowls and pipes: walls without thickness, seen from both sides.
 
 #ifdef SHELLS
+// A wall that lies on a plane is seen before it, where both are at the same depth but for rounding.
+const float kBefore = 1e-5;
+
 // A part of a sphere around the middle, or of a cylinder around the axis.
 struct Shell {
     vec3 middle, axis;  // the axis unit: a bowl's opening, a pipe's own
@@ -63,7 +66,7 @@ void meet_shell(inout Hit hit, vec3 d, int item, bool here, Shell s) {
         if (near && outline < kEdgeReach * pixel) hit.edge = true;
         if (near && through && any(lessThan(abs(inside), reach))) hit.edge = true;
         if (here && through && t > 0.0 && all(greaterThanEqual(inside, vec2(0.0))))
-            take(hit, t, item, n, 0, d);
+            take(hit, t * (1.0 - kBefore), item, n, 0, d);
     }
 }
 
