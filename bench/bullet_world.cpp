@@ -59,8 +59,10 @@ Placed place(const CylinderShape& cylinder) {
             btTransform(to_bullet(turn), to_bullet(Vec3(0.5 * (cylinder.from + cylinder.to))))};
 }
 
-/// Bullet has no torus; no case has one.
+/// Bullet has no torus and no hollow shapes but meshes; no case has one.
 Placed place(const RingShape&) { throw std::invalid_argument("Bullet has no ring"); }
+Placed place(const BowlShape&) { throw std::invalid_argument("Bullet has no bowl"); }
+Placed place(const PipeShape&) { throw std::invalid_argument("Bullet has no pipe"); }
 
 // Bullet's hook for pairs: each object carries the table and its material.
 PairProperties pair_of(const btCollisionObject* a, const btCollisionObject* b) {

@@ -69,7 +69,19 @@ void add_planes(Scene& scene, Draw& draw) {
 SurfaceShape rimmed_shape(const Vec3& at, Draw& draw) {
     const Vec3 axis = draw.chance(0.4) ? Vec3(Vec3::Unit(draw.integer(0, 2))) : draw.direction();
     const double radius = draw.log_uniform(0.03, 0.8);
-    if (draw.chance(0.5)) return RingShape{at, axis, radius, radius * draw.log_uniform(0.01, 0.9)};
+    switch (draw.integer(0, 3)) {
+        case 0:
+            return RingShape{at, axis, radius, radius * draw.log_uniform(0.01, 0.9)};
+        case 1:
+            return BowlShape{at, radius, axis, radius * draw.uniform(0.1, 1.9)};
+        case 2: {
+            const double angle = draw.chance(0.2) ? 7 : draw.uniform(0.2, 6.2);
+            return PipeShape{at, at + draw.log_uniform(0.01, 1.5) * axis, radius,
+                             axis.unitOrthogonal(), angle};
+        }
+        default:
+            break;
+    }
     return CylinderShape{at, at + draw.log_uniform(0.01, 1.5) * axis, radius};
 }
 
@@ -126,6 +138,8 @@ struct MoveOnto {
     Vec3 operator()(const CapsuleShape&) const { return ball.position; }
     Vec3 operator()(const CylinderShape& cylinder) const { return moved_onto(cylinder); }
     Vec3 operator()(const RingShape& ring) const { return moved_onto(ring); }
+    Vec3 operator()(const BowlShape& bowl) const { return moved_onto(bowl); }
+    Vec3 operator()(const PipeShape& pipe) const { return moved_onto(pipe); }
 
     template <class Shape>
     Vec3 moved_onto(const Shape& shape) const {

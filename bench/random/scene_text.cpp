@@ -42,6 +42,17 @@ std::string shape_text(const RingShape& ring) {
                        text(ring.center), text(ring.axis), ring.radius, ring.tube_radius);
 }
 
+std::string shape_text(const BowlShape& bowl) {
+    return fmt::format("bowl: {{position: {}, radius: {}, opening: {}, depth: {}}}",
+                       text(bowl.center), bowl.radius, text(bowl.opening), bowl.depth);
+}
+
+std::string shape_text(const PipeShape& pipe) {
+    const double degrees = pipe.is_tube() ? 360 : pipe.angle * (180 / M_PI);
+    return fmt::format("pipe: {{from: {}, to: {}, radius: {}, opening: {}, angle_deg: {}}}",
+                       text(pipe.from), text(pipe.to), pipe.radius, text(pipe.opening), degrees);
+}
+
 std::string materials_text(const Scene& scene) {
     std::string all;
     for (std::size_t i = 1; i < scene.materials.size(); ++i) {

@@ -39,6 +39,15 @@ SurfaceShape moved(const RingShape& ring, const Transform& t) {
     return RingShape{t.place(ring.center), t.linear * ring.axis, ring.radius, ring.tube_radius};
 }
 
+SurfaceShape moved(const BowlShape& bowl, const Transform& t) {
+    return BowlShape{t.place(bowl.center), bowl.radius, t.linear * bowl.opening, bowl.depth};
+}
+
+SurfaceShape moved(const PipeShape& pipe, const Transform& t) {
+    return PipeShape{t.place(pipe.from), t.place(pipe.to), pipe.radius, t.linear * pipe.opening,
+                     pipe.angle};
+}
+
 /// Changes last digits.
 class Nudge {
   public:
@@ -81,6 +90,14 @@ class Nudge {
     SurfaceShape shape(const RingShape& ring) {
         const Vec3 center = place(ring.center);
         return RingShape{center, vector(ring.axis).normalized(), ring.radius, ring.tube_radius};
+    }
+    SurfaceShape shape(const BowlShape& bowl) {
+        const Vec3 center = place(bowl.center);
+        return BowlShape{center, bowl.radius, vector(bowl.opening).normalized(), bowl.depth};
+    }
+    SurfaceShape shape(const PipeShape& pipe) {
+        const Vec3 from = place(pipe.from), to = place(pipe.to);
+        return PipeShape{from, to, pipe.radius, vector(pipe.opening).normalized(), pipe.angle};
     }
 
   private:

@@ -12,6 +12,8 @@ inline bool is_convex(const SphereShape&) { return true; }
 inline bool is_convex(const CapsuleShape&) { return true; }
 inline bool is_convex(const CylinderShape&) { return true; }
 inline bool is_convex(const RingShape&) { return false; }
+inline bool is_convex(const BowlShape&) { return false; }
+inline bool is_convex(const PipeShape&) { return false; }
 inline bool is_convex(const SurfaceShape& shape) {
     return std::visit([](const auto& s) { return is_convex(s); }, shape);
 }

@@ -7,6 +7,10 @@ namespace carom {
 
 namespace {
 
+/// The border of a hole's middle is so wide, as a part of its radius: where the border of a
+/// circle's half and that of the middle meet, places have that many digits.
+constexpr double kCentredBorder = 1e-4;
+
 Mat3 across_axis(const Vec3& axis) { return Mat3::Identity() - axis * axis.transpose(); }
 
 Feature feature_of(const PlaneShape& plane, const CenterMotion&, double radius) {
@@ -96,13 +100,17 @@ Feature circle_feature(const Vec3& middle, const Vec3& axis, double core_radius,
 /// The same for a ball at x, of which the circle's hole may hold a part: a ball in the middle of a
 /// hole that is too small for it touches it all around, which holds it along the axis and across.
 Feature circle_or_seat(const Vec3& middle, const Vec3& axis, double core_radius, double distance,
-                       const Vec3& x, double radius) {
+                       const CenterMotion& center, double radius) {
     Feature f = circle_feature(middle, axis, core_radius, distance);
     if (distance <= core_radius) return f;
-    const AroundAxis at(middle, axis, x);
-    const double centred = kCentred * core_radius;
-    if (at.away > centred) {
-        f.add_round_border(middle, axis, centred, 1);
+    // On the border of the middle the motion decides.
+    const AroundAxis at(middle, axis, center.x);
+    const double centred = kCentred * core_radius, off = at.away / centred - 1;
+    const bool outside = std::abs(off) > kCentredBorder ? off > 0 : at.outward.dot(center.v) > 0;
+    if (outside) {
+        // Where the ball comes to the middle, the other side of the hole meets it.
+        f.half = at.outward;
+        f.add_border(f.half, f.half.dot(middle) + centred);
         return f;
     }
     const double height = std::sqrt((distance - core_radius) * (distance + core_radius));
@@ -167,8 +175,89 @@ Feature feature_of(const CylinderShape& cylinder, const CenterMotion& center, do
 }
 
 Feature feature_of(const RingShape& ring, const CenterMotion& center, double radius) {
-    return circle_or_seat(ring.center, ring.axis, ring.radius, radius + ring.tube_radius, center.x,
+    return circle_or_seat(ring.center, ring.axis, ring.radius, radius + ring.tube_radius, center,
                           radius);
+}
+
+/// How a centre goes over a border. One that goes by `around` [m/s] about the border's axis is
+/// drawn outwards as if pulled by around^2 / away.
+AxisMotion motion_over(const FeatureBorder& border, const CenterMotion& center) {
+    AxisMotion m{border.margin(center.x), border.direction.dot(center.v),
+                 border.direction.dot(center.pull)};
+    if (border.slant == 0) return m;
+    const AroundAxis at(border.origin, border.axis, center.x);
+    const AxisMotion away = motion_away(at, border.axis, center);
+    m.rate += border.slant * away.rate;
+    m.pull += border.slant * away.pull;
+    return m;
+}
+
+/// A round wall around a core, met from the side where the centre is.
+void set_wall(Feature& f, double wall, double away, double radius) {
+    f.hollow = away < wall;
+    f.distance = f.hollow ? wall - radius : wall + radius;
+}
+
+Feature feature_of(const BowlShape& bowl, const CenterMotion& center, double radius) {
+    const double border = kBorder * (center.x.cwiseAbs().maxCoeff() + radius);
+    // The cone through the rim, from the sphere's middle; beyond it the rim is what is met.
+    const double up = bowl.rim_height() / bowl.radius, out = bowl.rim_radius() / bowl.radius;
+    const FeatureBorder cone{out * bowl.opening, out * bowl.opening.dot(bowl.center), -up,
+                             bowl.center, bowl.opening};
+    if (!bowl.is_closed() && leads_beyond(motion_over(cone, center), border, center.v.norm())) {
+        Feature rim = circle_or_seat(bowl.center + bowl.rim_height() * bowl.opening, bowl.opening,
+                                     bowl.rim_radius(), radius, center, radius);
+        rim.add_border(cone);
+        return rim;
+    }
+    Feature f;
+    f.origin = bowl.center;
+    set_wall(f, bowl.radius, (center.x - bowl.center).norm(), radius);
+    if (!bowl.is_closed()) f.add_border(cone.reversed());
+    return f;
+}
+
+Feature feature_of(const PipeShape& pipe, const CenterMotion& center, double radius) {
+    const Vec3 whole = pipe.to - pipe.from, axis = whole.normalized();
+    const double half = 0.5 * whole.norm(), speed = center.v.norm();
+    const double border = kBorder * (center.x.cwiseAbs().maxCoeff() + radius);
+    const AroundAxis at(pipe.from, axis, center.x);
+    const int side =
+        side_of({at.along - half, axis.dot(center.v), axis.dot(center.pull)}, half, border, speed);
+    const Vec3 end = side > 0 ? pipe.to : pipe.from;
+    // Beyond it the edges are what is met: where the angle from the wall's middle is too large.
+    const double cosine = std::cos(0.5 * pipe.angle);
+    const FeatureBorder slot{pipe.opening, pipe.opening.dot(pipe.from), cosine, pipe.from, axis};
+    const bool beyond = !pipe.is_tube() && leads_beyond(motion_over(slot, center), border, speed);
+    Feature f;
+    f.origin = end;
+    if (beyond) {
+        const Vec3 across = axis.cross(pipe.opening);
+        const double aside = across.dot(center.x - pipe.from);
+        const AxisMotion over{aside, across.dot(center.v), across.dot(center.pull)};
+        const double edge = leads_beyond(over, border, speed) ? 1 : -1;
+        f.origin +=
+            pipe.radius * (edge * std::sin(0.5 * pipe.angle) * across - cosine * pipe.opening);
+        f.distance = radius;
+        f.add_border(slot);
+        f.add_border(edge * across, edge * across.dot(pipe.from));
+    } else if (side == 0) {
+        set_wall(f, pipe.radius, at.away, radius);
+        if (!pipe.is_tube()) f.add_border(slot.reversed());
+    } else if (pipe.is_tube()) {
+        f = circle_or_seat(end, axis, pipe.radius, radius, center, radius);
+    } else {
+        f = circle_feature(end, axis, pipe.radius, radius);
+        f.add_border(slot.reversed());
+    }
+    if (side == 0) {
+        f.across = across_axis(axis);
+        f.add_border(axis, axis.dot(pipe.from));
+        f.add_border(-axis, -axis.dot(pipe.to));
+    } else {
+        f.add_border(side * axis, side * axis.dot(end));
+    }
+    return f;
 }
 
 bool has_flat(const PlaneShape&, const Vec3&) { return true; }
@@ -178,6 +267,8 @@ bool has_flat(const CylinderShape& cylinder, const Vec3& normal) {
     return std::abs((cylinder.to - cylinder.from).normalized().dot(normal)) > 1 - 1e-12;
 }
 bool has_flat(const RingShape&, const Vec3&) { return false; }
+bool has_flat(const BowlShape&, const Vec3&) { return false; }
+bool has_flat(const PipeShape&, const Vec3&) { return false; }
 bool has_flat(const BoxShape& box, const Vec3& normal) {
     const Vec3 local = box.orientation.conjugate() * normal;
     return local.cwiseAbs().maxCoeff() > 1 - 1e-12;
@@ -193,7 +284,7 @@ double FeatureBorder::margin(const Vec3& x) const {
 
 Vec3 Feature::from_core(const Vec3& x) const {
     if (!has_circle()) return across * (x - origin);
-    const AroundAxis at(origin, core_axis, x);
+    const AroundAxis at = around_axis(x);
     return (at.away - core_radius) * at.outward + at.along * core_axis;
 }
 
@@ -205,7 +296,7 @@ double Feature::gap_growth(const Vec3& x, const Vec3& way) const {
         const Vec3 moved = across * way;
         return moved.dot(2 * q + moved) / sum;
     }
-    const AroundAxis from(origin, core_axis, x), to(origin, core_axis, x + way);
+    const AroundAxis from = around_axis(x), to = around_axis(x + way);
     const double along = core_axis.dot(way);
     const Vec3 moved = way - along * core_axis;
     const double out = moved.dot(2 * from.away * from.outward + moved) / (from.away + to.away);
@@ -219,7 +310,7 @@ FeatureMotion Feature::motion_at(const Vec3& x, const Vec3& v) const {
     m.turning_speed = q_rate;
     if (has_circle()) {
         // The nearest point of the circle goes along with what leads around the axis.
-        const AroundAxis at(origin, core_axis, x);
+        const AroundAxis at = around_axis(x);
         const Vec3 around = core_axis.cross(at.outward);
         q_rate = v - (core_radius / at.away * around.dot(v)) * around;
         m.turning_speed = v;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 
+#include "geometry/around_axis.h"
 #include "geometry/shape.h"
 
 namespace carom {
@@ -21,6 +22,8 @@ struct FeatureBorder {
     Vec3 axis = Vec3::UnitZ();   ///< unit
 
     double margin(const Vec3& x) const;
+    /// The border of what is on its other side.
+    FeatureBorder reversed() const { return {-direction, -offset, -slant, origin, axis}; }
 };
 
 /// Of the feature itself, and of others that meet the ball in the same place (seams.h).
@@ -43,7 +46,10 @@ struct Feature {
     double distance = 1;             ///< of a touching ball's centre from the core, m
     double core_radius = 0;          ///< of a core that is a circle, m; 0 for all others
     Vec3 core_axis = Vec3::UnitZ();  ///< of such a circle, unit
-    bool hollow = false;             ///< the ball is inside: the normal points towards the core
+    /// Of a circle that the ball may cross over: which half of it is met, so that the law goes on
+    /// smoothly up to where the border in the middle ends it; 0 for all others.
+    Vec3 half = Vec3::Zero();
+    bool hollow = false;  ///< the ball is inside: the normal points towards the core
     /// Of a place that holds a ball from all sides, such as a hole that is too small for it: what
     /// pulls along it moves nothing up to this part of what presses. 0 for all others.
     double hold = 0;
@@ -51,6 +57,10 @@ struct Feature {
     int border_count = 0;
 
     bool has_circle() const { return core_radius > 0; }
+    /// Of a core that is a circle.
+    AroundAxis around_axis(const Vec3& x) const {
+        return AroundAxis(origin, core_axis, x).seen_from_side(half);
+    }
     /// From the core's nearest point to x, m.
     Vec3 from_core(const Vec3& x) const;
     Vec3 normal_at(const Vec3& x) const {
@@ -66,6 +76,9 @@ struct Feature {
     /// Of a centre at x [m] that moves by v [m/s].
     FeatureMotion motion_at(const Vec3& x, const Vec3& v) const;
 
+    void add_border(const FeatureBorder& border) {
+        borders[static_cast<std::size_t>(border_count++)] = border;
+    }
     void add_border(const Vec3& direction, double at) {
         FeatureBorder& border = borders[static_cast<std::size_t>(border_count++)];
         border.direction = direction;

@@ -23,5 +23,11 @@ GapBound gap_bound(const CylinderShape& cylinder, const Vec3& center, double rad
 /// by 1/d across the circle and by (away - R) / (away d) around the axis: downwards within the
 /// circle, and there by no more than 1/away, since d >= R - away.
 GapBound gap_bound(const RingShape& ring, const Vec3& center, double radius);
+/// The distance from the inside of a round wall bends downwards by 1 / (distance from its middle),
+/// that from its rim as from a ring. Both join smoothly where the rim begins.
+GapBound gap_bound(const BowlShape& bowl, const Vec3& center, double radius);
+/// The same; the axis is the middle of the wall and of the ends. Opposite to the wall both edges are
+/// as near, and only the way itself bounds what the gap may lose.
+GapBound gap_bound(const PipeShape& pipe, const Vec3& center, double radius);
 
 }  // namespace carom

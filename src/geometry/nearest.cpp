@@ -32,6 +32,17 @@ Nearest nearest_on_circle(const Vec3& middle, const Vec3& axis, double core_radi
     return {gap, normal, center - (gap + radius) * normal};
 }
 
+/// Of a round wall at `wall` [m] from `core`, from which the ball's centre lies at `from_core`; where
+/// that is 0, the wall is met in the direction `else_out`.
+Nearest nearest_on_wall(const Vec3& core, double wall, const Vec3& from_core, const Vec3& else_out,
+                        double radius) {
+    const double away = from_core.norm();
+    const Vec3 out = away > 0 ? Vec3(from_core / away) : else_out;
+    const bool inside = away < wall;
+    return {(inside ? wall - away : away - wall) - radius, inside ? Vec3(-out) : out,
+            core + wall * out};
+}
+
 }  // namespace
 
 Nearest nearest_on(const PlaneShape& plane, const Vec3& center, double radius) {
@@ -92,6 +103,34 @@ Nearest nearest_on(const CylinderShape& cylinder, const Vec3& center, double rad
 
 Nearest nearest_on(const RingShape& ring, const Vec3& center, double radius) {
     return nearest_on_circle(ring.center, ring.axis, ring.radius, ring.tube_radius, center, radius);
+}
+
+Nearest nearest_on(const BowlShape& bowl, const Vec3& center, double radius) {
+    const Vec3 from_center = center - bowl.center;
+    const double away = from_center.norm();
+    if (bowl.opening.dot(from_center) * bowl.radius <= bowl.rim_height() * away)
+        return nearest_on_wall(bowl.center, bowl.radius, from_center, -bowl.opening, radius);
+    const Vec3 rim = bowl.center + bowl.rim_height() * bowl.opening;
+    return nearest_on_circle(rim, bowl.opening, bowl.rim_radius(), 0, center, radius);
+}
+
+Nearest nearest_on(const PipeShape& pipe, const Vec3& center, double radius) {
+    const Vec3 whole = pipe.to - pipe.from, axis = whole.normalized();
+    const AroundAxis at(pipe.from, axis, center);
+    const double along = std::clamp(at.along, 0.0, whole.norm());
+    const Vec3 middle = pipe.from + along * axis;
+    if (!pipe.is_tube() && -pipe.opening.dot(at.outward) < std::cos(0.5 * pipe.angle)) {
+        // An edge, on the side where the centre is.
+        const Vec3 across = axis.cross(pipe.opening);
+        const double side = across.dot(center - pipe.from) < 0 ? -1 : 1;
+        const Vec3 edge = -std::cos(0.5 * pipe.angle) * pipe.opening +
+                          (side * std::sin(0.5 * pipe.angle)) * across;
+        return nearest_around(middle + pipe.radius * edge, 0, center, radius);
+    }
+    if (along == at.along)
+        return nearest_on_wall(middle, pipe.radius, at.away * at.outward, at.outward, radius);
+    if (pipe.is_tube()) return nearest_on_circle(middle, axis, pipe.radius, 0, center, radius);
+    return nearest_around(middle + pipe.radius * at.outward, 0, center, radius);
 }
 
 Nearest nearest_on(const SurfaceShape& shape, const Vec3& center, double radius) {

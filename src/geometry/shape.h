@@ -3,6 +3,8 @@
 // been told of it.
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <variant>
 
 #include "core/types.h"
@@ -63,8 +65,36 @@ struct RingShape {
     bool operator==(const RingShape&) const = default;
 };
 
-using SurfaceShape =
-    std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, CylinderShape, RingShape>;
+/// The part of a sphere up to `depth` along `opening` from its lowest point: a wall without
+/// thickness, which balls meet from inside, from outside and at its rim.
+struct BowlShape {
+    Vec3 center = Vec3::Zero();    ///< of the sphere
+    double radius = 1;             ///< of the sphere, m
+    Vec3 opening = Vec3::UnitZ();  ///< unit
+    double depth = 1;              ///< m, at most twice the radius
+
+    /// Of the rim's plane over the centre along `opening`, m.
+    double rim_height() const { return depth - radius; }
+    double rim_radius() const { return std::sqrt(depth * (2 * radius - depth)); }
+    bool is_closed() const { return depth >= 2 * radius; }
+    bool operator==(const BowlShape&) const = default;
+};
+
+/// The part of a cylinder around a segment that is within `angle` / 2 of the direction opposite to
+/// `opening`: a wall without thickness, as that of a bowl.
+struct PipeShape {
+    Vec3 from = Vec3::Zero();
+    Vec3 to = Vec3::UnitX();
+    double radius = 0.1;           ///< m
+    Vec3 opening = Vec3::UnitZ();  ///< unit, across the segment
+    double angle = 3;              ///< rad; 2 pi and more is a tube
+
+    bool is_tube() const { return angle >= 2 * std::numbers::pi; }
+    bool operator==(const PipeShape&) const = default;
+};
+
+using SurfaceShape = std::variant<PlaneShape, BoxShape, SphereShape, CapsuleShape, CylinderShape,
+                                  RingShape, BowlShape, PipeShape>;
 
 /// Of a set of lambdas, one overloaded function for std::visit.
 template <class... Cases>
@@ -80,7 +110,8 @@ inline bool is_unbounded(const SurfaceShape& shape) {
         PerShape{
             [](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
             [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
-            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }},
+            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }, [](const BowlShape&) { return false; },
+                 [](const PipeShape&) { return false; }},
         shape);
 }
 

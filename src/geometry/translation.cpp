@@ -45,6 +45,14 @@ SurfaceShape moved(const RingShape& ring, const Vec3& origin) {
     return RingShape{ring.center - origin, ring.axis, ring.radius, ring.tube_radius};
 }
 
+SurfaceShape moved(const BowlShape& bowl, const Vec3& origin) {
+    return BowlShape{bowl.center - origin, bowl.radius, bowl.opening, bowl.depth};
+}
+
+SurfaceShape moved(const PipeShape& pipe, const Vec3& origin) {
+    return PipeShape{pipe.from - origin, pipe.to - origin, pipe.radius, pipe.opening, pipe.angle};
+}
+
 }  // namespace
 
 SurfaceShape seen_from(const SurfaceShape& shape, const Vec3& origin) {

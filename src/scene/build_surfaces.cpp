@@ -1,6 +1,7 @@
 // Static bodies.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -111,6 +112,57 @@ ReadShape read_ring(Build& build, const Fields& fields, const Node& node) {
     return {ring, true};
 }
 
+ReadShape read_bowl(Build& build, const Fields& fields, const Node& node) {
+    BowlShape bowl;
+    bowl.center = fields.vec3("position");
+    bowl.radius = fields.maybe_number("radius").value_or(1);
+    bowl.opening = fields.vec3("opening");
+    bowl.depth = fields.maybe_number("depth").value_or(bowl.radius);
+    if (bowl.opening.norm() < kShortest) {
+        const Node* opening = fields.find("opening");
+        build.report.error(opening != nullptr ? *opening : node,
+                           "the bowl's opening has length 0");
+        return {bowl, false};
+    }
+    bowl.opening.normalize();
+    if (!node.valid) return {bowl, false};
+    if (bowl.depth > 2 * bowl.radius) {
+        build.report.error(*fields.find("depth"),
+                           "the bowl's depth must be at most twice its radius");
+        return {bowl, false};
+    }
+    return {bowl, true};
+}
+
+ReadShape read_pipe(Build& build, const Fields& fields, const Node& node) {
+    if (!fields.has("from") || !fields.has("to")) return {PipeShape{}, false};
+    PipeShape pipe;
+    pipe.from = fields.vec3("from");
+    pipe.to = fields.vec3("to");
+    pipe.radius = fields.maybe_number("radius").value_or(1);
+    const double degrees = fields.number("angle_deg");
+    // Any tube is all of it, whatever pi times 2 is rounded to.
+    pipe.angle = degrees >= 360 ? 7 : degrees * (std::numbers::pi / 180);
+    const Vec3 axis = pipe.to - pipe.from;
+    if (axis.norm() < kShortest) {
+        build.report.error(*fields.find("to"), "the pipe's 'from' and 'to' are the same point");
+        return {pipe, false};
+    }
+    const Vec3 opening = fields.vec3("opening"), along = axis.normalized();
+    const Vec3 across = opening - along.dot(opening) * along;
+    if (across.norm() >= kShortest * std::max(1.0, opening.norm())) {
+        pipe.opening = across.normalized();
+    } else if (pipe.is_tube()) {
+        pipe.opening = along.unitOrthogonal();
+    } else {
+        const Node* given = fields.find("opening");
+        build.report.error(given != nullptr ? *given : node,
+                           "the pipe's opening must not lie along its axis");
+        return {pipe, false};
+    }
+    return {pipe, node.valid};
+}
+
 ReadShape read_shape(Build& build, const Node& surface) {
     const Fields fields = build.fields(Section::kSurface, &surface);
     if (const Node* node = surface.find("plane"))
@@ -124,6 +176,10 @@ ReadShape read_shape(Build& build, const Node& surface) {
         return read_cylinder(build, fields.child("cylinder"), *node);
     if (const Node* node = surface.find("ring"))
         return read_ring(build, fields.child("ring"), *node);
+    if (const Node* node = surface.find("bowl"))
+        return read_bowl(build, fields.child("bowl"), *node);
+    if (const Node* node = surface.find("pipe"))
+        return read_pipe(build, fields.child("pipe"), *node);
     return {PlaneShape{}, false};
 }
 

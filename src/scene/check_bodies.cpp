@@ -56,7 +56,8 @@ void report_surface(Build& build, const SurfaceOverlap& overlap) {
                   ball_name, surface_name, depth_text(overlap.behind_by))
             : fmt::format("the ball '{}' and the surface '{}' overlap by {} at the start",
                           ball_name, surface_name, depth_text(overlap.depth));
-    if (inside) message += "; surfaces are solid: for a container make a room of planes";
+    if (inside)
+        message += "; surfaces are solid: for a container take a bowl, a pipe, or a room of planes";
     build.report.error(*build.ball_origins[ball].node, message);
 }
 

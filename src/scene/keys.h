@@ -26,6 +26,8 @@ enum class Section {
     kCapsule,
     kCylinder,
     kRing,
+    kBowl,
+    kPipe,
     kDefaults,
     kBallDefaults,  ///< the rows of kBall that have `in_defaults`
     kBall,
@@ -171,6 +173,7 @@ class KeyTable {
 std::vector<KeySpec> setup_keys();
 std::vector<KeySpec> overlay_keys();
 std::vector<KeySpec> surface_keys();
+std::vector<KeySpec> shape_keys();
 std::vector<KeySpec> ball_keys();
 std::vector<KeySpec> against_keys();
 std::vector<Rule> key_rules();

@@ -11,7 +11,7 @@ std::vector<Rule> key_rules() {
         {kPair, Rule::Kind::kAtLeastOne, {"restitution", "friction"}},
         {kSurface,
          Rule::Kind::kExactlyOne,
-         {"plane", "box", "sphere", "capsule", "cylinder", "ring"}},
+         {"plane", "box", "sphere", "capsule", "cylinder", "ring", "bowl", "pipe"}},
         {kBox, Rule::Kind::kAtMostOne, {"rotation_deg", "quaternion"}},
         {kCamera, Rule::Kind::kExactlyOne, {"from", "path"}},
         {kCamera, Rule::Kind::kExactlyOne, {"to", "path"}},
@@ -49,6 +49,12 @@ std::vector<SectionDoc> section_docs() {
         {kCylinder, "cylinder", "surfaces[].cylinder",
          "A solid cylinder with flat ends; balls meet its rims as edges."},
         {kRing, "ring", "surfaces[].ring", "All points within `tube_radius` of a circle: a torus."},
+        {kBowl, "bowl", "surfaces[].bowl",
+         "The part of a sphere up to `depth` from its lowest point: a wall without thickness, which "
+         "balls meet from inside, from outside and at its rim."},
+        {kPipe, "pipe", "surfaces[].pipe",
+         "The part of a cylinder around a segment, within angle_deg/2 of the direction opposite to "
+         "`opening`: a wall without thickness, as a bowl's."},
         {kDefaults, "defaults", "defaults", "What fills in for values that are left out."},
         {kBallDefaults, "ball_defaults", "defaults.ball",
          "Fills what a ball, and the preset that the ball names, leave out. The keys are those of "

@@ -41,6 +41,11 @@ double numbers_of(const RingShape& ring) {
     return largest(ring.center) + ring.radius + ring.tube_radius;
 }
 
+double numbers_of(const BowlShape& bowl) { return largest(bowl.center) + bowl.radius; }
+double numbers_of(const PipeShape& pipe) {
+    return largest(pipe.from) + largest(pipe.to) + pipe.radius;
+}
+
 /// The radius of what a ball meets, at most its own: what is flat has none.
 double size_of_other(const PlaneShape&, double ball_radius) { return ball_radius; }
 double size_of_other(const BoxShape&, double ball_radius) { return ball_radius; }
@@ -55,6 +60,12 @@ double size_of_other(const CylinderShape& cylinder, double ball_radius) {
 }
 double size_of_other(const RingShape& ring, double ball_radius) {
     return std::min(ring.tube_radius, ball_radius);
+}
+double size_of_other(const BowlShape& bowl, double ball_radius) {
+    return std::min(bowl.radius, ball_radius);
+}
+double size_of_other(const PipeShape& pipe, double ball_radius) {
+    return std::min(pipe.radius, ball_radius);
 }
 
 /// How deep a ball may be in a shape and count as touching it, m.

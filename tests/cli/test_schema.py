@@ -45,6 +45,8 @@ surfaces:
   - {name: rail, capsule: {from: [-9, 3, 0], to: [-8, 3, 0], radius: 0.05}}
   - {name: drum, cylinder: {from: [-9, 6, 0], to: [-9, 6, 1], radius: 0.25}}
   - {name: hoop, ring: {position: [-9, 9, 3], axis: [0, 0, 1], radius: 0.25, tube_radius: 0.01}}
+  - {name: dish, bowl: {position: [-9, 12, 3], radius: 0.25, opening: [0, 0, 1], depth: 0.1}}
+  - {name: pipe, pipe: {from: [-9, 15, 3], to: [-8, 15, 3], radius: 0.25, angle_deg: 200}}
 defaults: {ball: {inertia: 0.5, material: rubber}}
 balls:
   - {name: a, radius: 0.1, position: [0, 0, 1], spin: [0, 1, 0], look: red}
@@ -104,6 +106,10 @@ WRONG = [
     (["surfaces", 6, "ring", "tube_radius"], DELETE),
     (["surfaces", 6, "ring", "radius"], -1),
     (["surfaces", 6, "ring", "axis"], [0, 1]),
+    (["surfaces", 7, "bowl", "radius"], DELETE),
+    (["surfaces", 7, "bowl", "depth"], 0),
+    (["surfaces", 8, "pipe", "to"], DELETE),
+    (["surfaces", 8, "pipe", "angle_deg"], 361),
     (["defaults", "ball", "name"], "x"),
     (["defaults", "ball", "inertia"], 0.7),
     (["balls", 0, "name"], "no spaces"),

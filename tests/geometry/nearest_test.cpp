@@ -59,6 +59,30 @@ TEST(Nearest, ARingIsRoundAllAround) {
     EXPECT_EQ(nearest_on(ring, {1, 0, 0}, 0).normal, Vec3(-1, 0, 0));
 }
 
+TEST(Nearest, ABowlHasTwoSidesAndARim) {
+    const BowlShape bowl{Vec3::Zero(), 1, Vec3::UnitZ(), 0.4};  // the rim: 0.8 wide, at z = -0.6
+    EXPECT_NEAR(nearest_on(bowl, {0, 0, -0.5}, 0.2).gap, 0.3, kRounding);
+    EXPECT_EQ(nearest_on(bowl, {0, 0, -0.5}, 0.2).normal, Vec3::UnitZ());
+    EXPECT_NEAR(nearest_on(bowl, {0, 0, -2}, 0.2).gap, 0.8, kRounding);
+    EXPECT_EQ(nearest_on(bowl, {0, 0, -2}, 0.2).normal, Vec3(0, 0, -1));
+    EXPECT_NEAR(nearest_on(bowl, {0.8 + 3, 0, -0.6 + 4}, 0.2).gap, 4.8, kRounding);  // 3-4-5
+    EXPECT_NEAR(nearest_on(BowlShape{Vec3::Zero(), 1, Vec3::UnitZ(), 2}, {0, 0, 0.7}, 0).gap, 0.3,
+                kRounding);
+}
+
+TEST(Nearest, APipeHasAWallEdgesAndEnds) {
+    const PipeShape half{Vec3::Zero(), Vec3(2, 0, 0), 1, Vec3::UnitZ(), 3.14159265358979312};
+    EXPECT_NEAR(nearest_on(half, {1, 0, -0.3}, 0.2).gap, 0.5, kRounding);
+    EXPECT_EQ(nearest_on(half, {1, 0, -0.3}, 0.2).normal, Vec3::UnitZ());
+    EXPECT_NEAR(nearest_on(half, {1, 0, -1.5}, 0.2).gap, 0.3, kRounding);
+    EXPECT_NEAR(nearest_on(half, {1, 1.3, 0.4}, 0.2).gap, 0.3, kRounding);     // an edge
+    EXPECT_NEAR(nearest_on(half, {1, -1.3, 0.4}, 0.2).gap, 0.3, kRounding);    // the other
+    EXPECT_NEAR(nearest_on(half, {2.4, 0, -1.3}, 0.2).gap, 0.3, kRounding);    // an end
+    EXPECT_NEAR(nearest_on(half, {-2, 1 + 1, 2}, 0.2).gap, 2.8, kRounding);    // a corner: 2-1-2
+    const PipeShape tube{Vec3::Zero(), Vec3(2, 0, 0), 1, Vec3::UnitZ(), 7};
+    EXPECT_NEAR(nearest_on(tube, {1, 0, 0.7}, 0.2).gap, 0.1, kRounding);
+}
+
 TEST(Nearest, TurningAndMovingShapeAndPointChangesNoDistance) {
     const BoxShape box{Vec3::Zero(), {2, 4, 6}, Quat::Identity()};
     const Vec3 move(3, -1, 2);

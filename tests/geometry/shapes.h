@@ -15,7 +15,12 @@ inline std::vector<SurfaceShape> one_of_each() {
             SphereShape{Vec3(-1, 0.5, 2), 0.8},
             CapsuleShape{{0, 1, 0}, {1.5, 1.2, -0.4}, 0.3},
             CylinderShape{{0.2, -0.4, -0.9}, {1.1, 0.3, 0.2}, 0.6},
-            RingShape{{-0.3, 0.4, 0.7}, Vec3(2, -1, 2) / 3, 1.1, 0.25}};
+            RingShape{{-0.3, 0.4, 0.7}, Vec3(2, -1, 2) / 3, 1.1, 0.25},
+            BowlShape{{0.2, 0.3, 0.1}, 1.3, Vec3(1, 2, 2) / 3, 0.9},
+            BowlShape{{-0.2, 0.1, 0.4}, 1.1, Vec3(-2, 1, 2) / 3, 1.7},
+            PipeShape{{-0.8, 0.1, 0}, {1.2, 0.1, 0}, 0.9, Vec3(0, 0.6, 0.8), 2.5},
+            PipeShape{{0.1, -0.9, 0.2}, {0.1, 0.8, 0.2}, 0.7, Vec3(0.6, 0, 0.8), 4.5},
+            PipeShape{{0, 0.2, -0.5}, {0, 0.2, 1.5}, 0.8, Vec3(1, 0, 0), 7}};
 }
 
 /// Places around them, inside some of them.

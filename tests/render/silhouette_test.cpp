@@ -158,6 +158,21 @@ TEST(EdgeQuality, RimsMatchSixtyFourSamples) {
     expect_like_reference(scene);
 }
 
+TEST(EdgeQuality, HollowBodiesMatchSixtyFourSamples) {
+    HandMadeScene scene;
+    scene.camera({0.6, -4, 1.6}, {0, 0, 0.3}, 32);
+    const int floor = scene.look(LookStyle::kGrid, {0.9, 0.9, 0.88}, {0.5, 0.55, 0.6});
+    const int body = scene.look(LookStyle::kPlain, {0.3, 0.4, 0.5});
+    scene.surface(PlaneShape{}, floor);
+    scene.surface(BowlShape{{0.6, 0, 0.4}, 0.4, Vec3(-0.2, -0.3, 0.9).normalized(), 0.35}, body);
+    scene.surface(PipeShape{{-1.1, 0.3, 0.3}, {-0.2, -0.2, 0.4}, 0.25,
+                            Vec3::UnitZ(), 7},
+                  body);
+    scene.surface(PipeShape{{-0.8, 0.6, 0.9}, {0.6, 0.6, 1.0}, 0.15, Vec3::UnitZ(), 3.2}, body);
+    scene.ball({0.6, 0, 0.2}, 0.1, scene.look(LookStyle::kPlain, {0.8, 0.2, 0.1}));
+    expect_like_reference(scene);
+}
+
 TEST(ProjectedSphere, HasNoEllipseAroundTheEye) {
     Camera camera;
     camera.from = Vec3::Zero();

@@ -129,8 +129,8 @@ TEST(Errors, Surfaces) {
         {"surfaces: [{plane: {}}]",
          "2:12: error: the key 'name' is missing, such as 'name: floor'"},
         {"surfaces: [{name: a}]",
-         "2:12: error: one of 'plane', 'box', 'sphere', 'capsule', 'cylinder', 'ring' "
-         "must stand here"},
+         "2:12: error: one of 'plane', 'box', 'sphere', 'capsule', 'cylinder', 'ring', "
+         "'bowl', 'pipe' must stand here"},
         {"surfaces: [{name: a, plane: {}, sphere: {radius: 1}}]",
          "2:33: error: 'plane' and 'sphere' cannot stand together"},
         {"surfaces: [{name: a, plane: {normal: [0, 0, 0]}}]",
@@ -152,12 +152,22 @@ TEST(Errors, Surfaces) {
         {"surfaces: [{name: a, cylinder: {from: [1, 1, 1], to: [1, 1, 1], radius: 1}}]",
          "2:54: error: the cylinder's 'from' and 'to' are the same point"},
         {"surfaces: [{name: a, cylinder: {from: [1, 1, 1], to: [1, 1, 2], radius: 0}}]",
-         "2:76: error: 'radius' must be above 0 m, not 0"},
+         "2:73: error: 'radius' must be above 0 m, not 0"},
         {"surfaces: [{name: a, ring: {radius: 1, tube_radius: 1}}]",
          "2:53: error: the ring's tube_radius must be below its radius, which is that of the "
          "tube's middle: else there is no hole"},
         {"surfaces: [{name: a, ring: {axis: [0, 0, 0], radius: 1, tube_radius: 0.1}}]",
          "2:35: error: the ring's axis has length 0"},
+        {"surfaces: [{name: a, bowl: {radius: 1, depth: 2.5}}]",
+         "2:47: error: the bowl's depth must be at most twice its radius"},
+        {"surfaces: [{name: a, bowl: {radius: 1, opening: [0, 0, 0]}}]",
+         "2:49: error: the bowl's opening has length 0"},
+        {"surfaces: [{name: a, pipe: {from: [0, 0, 0], to: [0, 0, 0], radius: 1}}]",
+         "2:50: error: the pipe's 'from' and 'to' are the same point"},
+        {"surfaces: [{name: a, pipe: {from: [0, 0, 0], to: [0, 0, 2], radius: 1}}]",
+         "2:28: error: the pipe's opening must not lie along its axis"},
+        {"surfaces: [{name: a, pipe: {from: [0, 0, 0], to: [1, 0, 0], radius: 1, angle_deg: 400}}]",
+         "2:83: error: 'angle_deg' must be above 0 and at most 360 degrees, not 400"},
         {"surfaces: [{name: a, ring: {radius: 1}}]",
          "2:28: error: the key 'tube_radius' is missing, such as 'tube_radius: 0.009'"},
         {"surfaces: [{name: a, plane: {}, material: steel}]",
@@ -169,7 +179,7 @@ TEST(Errors, Surfaces) {
          "3:39: error: there is no look 'rde'; did you mean 'red'?"},
         {"surfaces: [{name: a, plane: {}, velocity: [0, 0, 1]}]",
          "2:33: error: unknown key 'velocity'; known here: name, plane, box, sphere, capsule, "
-         "cylinder, ring, material, look"},
+         "cylinder, ring, bowl, pipe, material, look"},
         {"surfaces:\n  - {name: a, plane: {}}\n  - {name: a, plane: {}}",
          "4:12: error: the name 'a' is taken already, by the surface in line 3"},
     });

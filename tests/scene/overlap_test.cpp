@@ -24,7 +24,8 @@ std::string overlap_text(const std::string& depth) {
 /// What a ball gets to read whose centre is inside of a body.
 std::string inside_text(const std::string& depth) {
     return "t.yaml:4:5: error: the ball 'b' and the surface 's' overlap by " + depth +
-           " m at the start; surfaces are solid: for a container make a room of planes\n";
+           " m at the start; surfaces are solid: for a container take a bowl, a pipe, or a room of "
+           "planes\n";
 }
 
 TEST(Overlap, BallsMayTouch) {
@@ -69,6 +70,14 @@ TEST(Overlap, EveryKindOfSurface) {
     EXPECT_EQ(errors_between(hoop, "radius: 0.75, position: [0, 0, 1]"), "");
     EXPECT_EQ(errors_between(hoop, "radius: 0.5, position: [0, 0.5, 1]"), overlap_text("0.25"));
     EXPECT_EQ(errors_between(hoop, "radius: 0.25, position: [1.3, 0, 1.4]"), "");
+    const std::string bowl = "bowl: {position: [0, 0, 0], radius: 1}";
+    EXPECT_EQ(errors_between(bowl, "radius: 0.5, position: [0, 0.5, 0]"), "");
+    EXPECT_EQ(errors_between(bowl, "radius: 0.5, position: [0, 0, -0.75]"), overlap_text("0.25"));
+    EXPECT_EQ(errors_between(bowl, "radius: 0.5, position: [0, 0, -1.5]"), "");
+    EXPECT_EQ(errors_between(bowl, "radius: 0.5, position: [1.3, 0, 0.4]"), "");
+    const std::string tube = "pipe: {from: [0, 0, 0], to: [4, 0, 0], radius: 1, angle_deg: 360}";
+    EXPECT_EQ(errors_between(tube, "radius: 0.5, position: [1, 0.5, 0]"), "");
+    EXPECT_EQ(errors_between(tube, "radius: 0.5, position: [1, 0, 1.25]"), overlap_text("0.25"));
     const std::string box = "box: {position: [0, 0, 0], size: [2, 4, 6]}";
     EXPECT_EQ(errors_between(box, "radius: 0.5, position: [1.5, 0, 0]"), "");
     EXPECT_EQ(errors_between(box, "radius: 0.5, position: [1.25, 0, 0]"), overlap_text("0.25"));

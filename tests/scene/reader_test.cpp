@@ -37,6 +37,9 @@ surfaces:
   - {name: rail,  capsule: {from: [0, 0, 0], to: [1, 0, 0], radius: 0.05}, material: steel}
   - {name: drum,  cylinder: {from: [5, 0, 0], to: [5, 0, 1], radius: 0.25}, material: steel}
   - {name: hoop,  ring: {position: [5, 5, 3], axis: [0, 2, 0], radius: 0.25, tube_radius: 0.01}, material: steel}
+  - {name: dish,  bowl: {position: [7, 0, 1], radius: 0.5, opening: [0, 0, 2]}, material: steel}
+  - {name: tube,  pipe: {from: [9, 0, 0], to: [9, 0, 1], radius: 0.5, angle_deg: 360}, material: steel}
+  - {name: gutter,  pipe: {from: [9, 5, 0], to: [9, 6, 1], radius: 0.5, angle_deg: 90}, material: steel}
 defaults: {ball: {mass: 1.0}}
 balls:
   - {name: a, radius: 0.12, mass: 0.6, inertia: shell, material: rubber, look: red,
@@ -69,7 +72,7 @@ TEST(Reader, ReadsTheContractsExample) {
     EXPECT_EQ(scene.pairs[0].restitution, 0.8);
     EXPECT_EQ(scene.pairs[0].friction, 0.5);
 
-    ASSERT_EQ(scene.surfaces.size(), 6U);
+    ASSERT_EQ(scene.surfaces.size(), 9U);
     EXPECT_EQ(std::get<PlaneShape>(scene.surfaces[0].shape).normal, Vec3(0, 0, 1));
     const BoxShape& plate = std::get<BoxShape>(scene.surfaces[1].shape);
     EXPECT_EQ(plate.size, Vec3(1, 1, 0.001));
@@ -83,6 +86,12 @@ TEST(Reader, ReadsTheContractsExample) {
               (CylinderShape{Vec3(5, 0, 0), Vec3(5, 0, 1), 0.25}));
     EXPECT_EQ(std::get<RingShape>(scene.surfaces[5].shape),
               (RingShape{Vec3(5, 5, 3), Vec3::UnitY(), 0.25, 0.01}));
+    EXPECT_EQ(std::get<BowlShape>(scene.surfaces[6].shape),
+              (BowlShape{Vec3(7, 0, 1), 0.5, Vec3::UnitZ(), 0.5}));
+    EXPECT_TRUE(std::get<PipeShape>(scene.surfaces[7].shape).is_tube());
+    const PipeShape& gutter = std::get<PipeShape>(scene.surfaces[8].shape);
+    EXPECT_LT((gutter.opening - Vec3(0, -1, 1).normalized()).norm(), 1e-15);
+    EXPECT_NEAR(gutter.angle, std::numbers::pi / 2, 1e-15);
 
     ASSERT_EQ(scene.balls.size(), 202U);
     const Ball& a = scene.balls[0];
@@ -92,7 +101,7 @@ TEST(Reader, ReadsTheContractsExample) {
     EXPECT_EQ(a.material, 2);
     EXPECT_EQ(scene.looks[static_cast<std::size_t>(a.look)].style, LookStyle::kStriped);
     EXPECT_EQ(scene.looks[static_cast<std::size_t>(a.look)].color.r, 0xc8 / 255.0);
-    EXPECT_EQ(a.mark.line, 27);
+    EXPECT_EQ(a.mark.line, 30);
     const Ball& b = scene.balls[1];
     EXPECT_EQ(b.preset, "basketball");
     EXPECT_EQ(b.position, Vec3(1, 0, 1.8 + b.radius));

@@ -232,7 +232,7 @@ TEST(Ring, ABallThatRattlesInASmallHoleComesToRest) {
                     r.motion.balls[0].at(5).position.head<2>().norm());
         EXPECT_LT(rise, 1e-9);
         EXPECT_LT(deepest, 1e-9);
-        EXPECT_LT(r.motion.balls[0].at(5).position.head<2>().norm(), 1e-3);
+        EXPECT_LT(r.motion.balls[0].at(5).position.head<2>().norm(), 1e-9);
     }
 }
 

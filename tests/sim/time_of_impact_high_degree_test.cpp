@@ -140,7 +140,9 @@ TEST(CurvedImpact, TimesAgreeWithSampling) {
         BoxShape{Vec3(0, 0.1, 0), Vec3(0.8, 0.5, 0.3),
                  Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))},
         CylinderShape{Vec3(-0.2, 0, 0.1), Vec3(0.3, 0.2, 0), 0.35},
-        RingShape{Vec3(0, 0.1, 0), Vec3(1, 2, 3).normalized(), 0.5, 0.1}};
+        RingShape{Vec3(0, 0.1, 0), Vec3(1, 2, 3).normalized(), 0.5, 0.1},
+        BowlShape{Vec3(0, 0.1, 0), 0.6, Vec3(1, 2, 3).normalized(), 0.8},
+        PipeShape{Vec3(-0.5, 0, 0), Vec3(0.5, 0.1, 0), 0.5, Vec3::UnitZ(), 4}};
     std::mt19937 random(11);
     for (const SurfaceShape& shape : shapes) {
         int hits = 0, misses = 0;

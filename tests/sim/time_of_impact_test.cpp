@@ -133,6 +133,21 @@ TEST(TimeOfImpact, RingFromAllSides) {
     expect_good(shoot(RingShape{Vec3::Zero(), axis, 0.2, 0.15}, Vec3::Zero(), 0.3, 12), "knob");
 }
 
+TEST(TimeOfImpact, BowlsAndPipesFromAllSides) {
+    const Vec3 up = Vec3(1, -2, 0.5).normalized();
+    expect_good(shoot(BowlShape{Vec3(0.1, 0, -0.2), 0.6, up, 0.6}, Vec3(0.1, 0, -0.2), 0.6, 13),
+                "bowl");
+    expect_good(shoot(BowlShape{Vec3::Zero(), 0.8, up, 0.2}, Vec3(-0.6 * up), 0.5, 14), "dish");
+    expect_good(shoot(BowlShape{Vec3::Zero(), 0.6, up, 1.1}, Vec3::Zero(), 0.6, 15), "jar");
+    const Vec3 across = up.unitOrthogonal();
+    const auto pipe = [&](double angle) {
+        return PipeShape{Vec3(-0.5 * up), Vec3(0.5 * up), 0.5, across, angle};
+    };
+    expect_good(shoot(pipe(3.14), Vec3::Zero(), 0.6, 16), "half pipe");
+    expect_good(shoot(pipe(5.5), Vec3::Zero(), 0.6, 17), "slit pipe");
+    expect_good(shoot(pipe(7), Vec3::Zero(), 0.6, 18), "tube");
+}
+
 TEST(TimeOfImpact, FastBallAgainstThinPlate) {
     for (int phase = 0; phase < 1000; ++phase) {
         const double z0 = 2 + 0.001 * phase;

@@ -43,6 +43,7 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
         if (table.capsules) defines.push_back("CAPSULES");
         if (table.cylinders) defines.push_back("CYLINDERS");
         if (table.rings) defines.push_back("RINGS");
+        if (table.shells) defines.push_back("SHELLS");
     }
     if (table.checker) defines.push_back("CHECKER");
     if (table.grid) defines.push_back("GRID");
@@ -66,7 +67,7 @@ GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
     if (std::find(defines.begin(), defines.end(), kManyPlanes) != defines.end())
         vertex_defines.push_back(kManyPlanes);
     sources.vertex = assemble_shader(vertex_defines, {"background_vertex"});
-    sources.fragment = assemble_shader(defines, {"surfaces", "other_surfaces", "surface_light",
+    sources.fragment = assemble_shader(defines, {"surfaces", "other_surfaces", "shells", "surface_light",
                                                  "surface_patterns", "background_fragment"});
     sources.attributes = {"a_rectangle", "a_seen", "a_shading", "a_planes"};
     sources.outputs = {"out_color", "out_g_buffer"};  // as BackgroundPicture::targets() has them

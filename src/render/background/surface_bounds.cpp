@@ -69,6 +69,21 @@ SurfaceBound ring_bound(const Vec3& center, const Vec3& axis, double radius, dou
     return bound;
 }
 
+/// A bowl within a box along its opening.
+SurfaceBound bowl_bound(const Vec3& center, const Vec3& opening, double radius,
+                        const Eigen::Vector4d& rim) {
+    const double wide = rim.x() >= 0 ? radius : rim.y(), half = 0.5 * (rim.x() + radius);
+    SurfaceBound bound;
+    const Vec3 u = opening.unitOrthogonal(), v = opening.cross(u);
+    bound.cores = cube_corners(center + (rim.x() - half) * opening, wide * u, wide * v,
+                               half * opening);
+    bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    bound.center = center;
+    bound.radius = radius;
+    bound.shades_itself = true;
+    return bound;
+}
+
 SurfaceBound other_bound(const SurfaceTable& table, int record) {
     const Eigen::Vector4d end = table.at(record, 0), way = table.at(record, 1);
     const Vec3 from = end.head<3>(), along = way.head<3>();
@@ -77,6 +92,13 @@ SurfaceBound other_bound(const SurfaceTable& table, int record) {
             return cylinder_bound(from, along, end.w());
         case OtherKind::kRing:
             return ring_bound(from, along, end.w(), table.at(record, 2).x());
+        case OtherKind::kBowl:
+            return bowl_bound(from, along, end.w(), table.at(record, 2));
+        case OtherKind::kPipe: {
+            SurfaceBound bound = cylinder_bound(from, along, end.w());
+            bound.shades_itself = true;
+            return bound;
+        }
         case OtherKind::kCapsule:
             break;
     }

@@ -18,6 +18,7 @@ struct SurfaceBound {
     double radius = 0;  ///< of a sphere around everything
     bool box = false;
     bool mirrors = false;
+    bool shades_itself = false;  ///< a hollow body
 
     /// Points whose hull holds the body made wider by `around` [m].
     std::vector<Vec3> corners(double around) const;

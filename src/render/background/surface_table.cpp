@@ -101,6 +101,22 @@ Record ring_record(const RingShape& ring, const View& view) {
     return record;
 }
 
+Record bowl_record(const BowlShape& bowl, const View& view) {
+    Record record{};
+    put(record, 0, view_point(view, bowl.center), bowl.radius);
+    put(record, 1, view_direction(view, bowl.opening), static_cast<double>(OtherKind::kBowl));
+    const double rim = bowl.is_closed() ? 0 : bowl.rim_radius();
+    put(record, 2, Vec3(bowl.rim_height(), rim, 0), 0);
+    return record;
+}
+
+Record pipe_record(const PipeShape& pipe, const View& view) {
+    Record record = rod_record(pipe.from, pipe.to, pipe.radius, OtherKind::kPipe, view);
+    put(record, 2, view_direction(view, pipe.opening),
+        pipe.is_tube() ? -2 : std::cos(0.5 * pipe.angle));
+    return record;
+}
+
 /// The groups of records, in their order.
 enum class Group { kPlanes, kBoxes, kSpheres, kOthers };
 
@@ -110,7 +126,9 @@ Group group_of(const SurfaceShape& shape) {
                                [](const SphereShape&) { return Group::kSpheres; },
                                [](const CapsuleShape&) { return Group::kOthers; },
                                [](const CylinderShape&) { return Group::kOthers; },
-                               [](const RingShape&) { return Group::kOthers; }},
+                               [](const RingShape&) { return Group::kOthers; },
+                               [](const BowlShape&) { return Group::kOthers; },
+                               [](const PipeShape&) { return Group::kOthers; }},
                       shape);
 }
 
@@ -130,7 +148,9 @@ std::optional<Record> record_of(const SurfaceShape& shape, const Look& look, con
                  [&](const CylinderShape& c) {
                      return Made(rod_record(c.from, c.to, c.radius, OtherKind::kCylinder, view));
                  },
-                 [&](const RingShape& ring) { return Made(ring_record(ring, view)); }},
+                 [&](const RingShape& ring) { return Made(ring_record(ring, view)); },
+                 [&](const BowlShape& bowl) { return Made(bowl_record(bowl, view)); },
+                 [&](const PipeShape& pipe) { return Made(pipe_record(pipe, view)); }},
         shape);
 }
 
@@ -138,7 +158,9 @@ void note_kind(const SurfaceShape& shape, SurfaceTable& table) {
     std::visit(PerShape{[](const PlaneShape&) {}, [](const BoxShape&) {}, [](const SphereShape&) {},
                         [&](const CapsuleShape&) { table.capsules = true; },
                         [&](const CylinderShape&) { table.cylinders = true; },
-                        [&](const RingShape&) { table.rings = true; }},
+                        [&](const RingShape&) { table.rings = true; },
+                        [&](const BowlShape&) { table.shells = true; },
+                        [&](const PipeShape&) { table.shells = true; }},
                shape);
 }
 

@@ -14,6 +14,8 @@ namespace carom {
 ///   sphere   0: centre, radius
 ///   others   0: one end, radius            1: from that end to the other, kind (OtherKind)
 ///            of a ring 0: centre, radius   1: axis, kind   2: x radius of the tube
+///            of a bowl 0: centre, radius   1: opening, kind   2: height and radius of the rim
+///            of a pipe 2: opening, cosine of half its angle, -2 of a tube
 ///   all      4: colour, pattern (0 none, 1 checker, 2 grid, 3 wood, 4 court)
 ///            5: second colour, tile [m]
 ///   plane    1: x reflection
@@ -24,7 +26,7 @@ namespace carom {
 constexpr int kSurfaceVec4s = 8;
 
 /// As surfaces.glsl numbers them.
-enum class OtherKind { kCapsule = 0, kCylinder = 1, kRing = 2 };
+enum class OtherKind { kCapsule = 0, kCylinder = 1, kRing = 2, kBowl = 3, kPipe = 4 };
 
 struct SurfaceTable {
     std::vector<float> vec4s;
@@ -32,7 +34,7 @@ struct SurfaceTable {
     int boxes = 0;
     int spheres = 0;
     int others = 0;
-    bool capsules = false, cylinders = false, rings = false;  ///< are among the others
+    bool capsules = false, cylinders = false, rings = false, shells = false;  ///< among the others
     /// Some surface has it.
     bool checker = false, grid = false, wood = false, court = false, reflection = false;
     /// One vec4 of a record.

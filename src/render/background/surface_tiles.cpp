@@ -277,7 +277,8 @@ void Sorter::mark_on_round_bodies() {
         if (bodies_[receiver].box) continue;
         Set shading(bodies_.size());
         for (std::size_t caster = 0; caster < bodies_.size(); ++caster)
-            shading[caster] = caster != receiver && may_shade(bodies_[caster], bodies_[receiver]);
+            shading[caster] = caster != receiver ? may_shade(bodies_[caster], bodies_[receiver])
+                                                 : bodies_[caster].shades_itself;
         for (std::size_t tile = 0; tile < seen_.size(); ++tile) {
             if (!seen_[tile][receiver]) continue;
             for (std::size_t caster = 0; caster < bodies_.size(); ++caster)

@@ -49,13 +49,17 @@ std::optional<Mirror> mirror_of(const SphereShape&, const View&) { return std::n
 std::optional<Mirror> mirror_of(const CapsuleShape&, const View&) { return std::nullopt; }
 std::optional<Mirror> mirror_of(const CylinderShape&, const View&) { return std::nullopt; }
 std::optional<Mirror> mirror_of(const RingShape&, const View&) { return std::nullopt; }
+std::optional<Mirror> mirror_of(const BowlShape&, const View&) { return std::nullopt; }
+std::optional<Mirror> mirror_of(const PipeShape&, const View&) { return std::nullopt; }
 
 bool can_mirror(const SurfaceShape& shape) {
     return std::visit(
         PerShape{
             [](const PlaneShape&) { return true; }, [](const BoxShape&) { return true; },
             [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
-            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }},
+            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; },
+                 [](const BowlShape&) { return false; },
+                 [](const PipeShape&) { return false; }},
         shape);
 }
 

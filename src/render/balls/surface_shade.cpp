@@ -74,6 +74,40 @@ bool meets(const RingShape& ring, const Vec3& p, const Vec3& l) {
     return false;
 }
 
+/// Does the ray from p along l, which is unit, meet the wall where `holds` says that it is one? Both
+/// ways through its whole sphere or cylinder, seen across the axis, are looked at.
+template <class Holds>
+bool meets_wall(const Vec3& rel, const Vec3& l, double radius, const Holds& holds) {
+    const double rate = l.squaredNorm();
+    if (!(rate > 1e-24)) return false;
+    const double middle = -rel.dot(l) / rate;
+    const double reach = radius * radius - (rel + middle * l).squaredNorm();
+    if (reach <= 0) return false;
+    const double half = std::sqrt(reach / rate);
+    return (middle - half > 0 && holds(middle - half)) ||
+           (middle + half > 0 && holds(middle + half));
+}
+
+bool meets(const BowlShape& bowl, const Vec3& p, const Vec3& l) {
+    const Vec3 rel = p - bowl.center;
+    return meets_wall(rel, l, bowl.radius, [&](double s) {
+        return bowl.opening.dot(rel + s * l) <= bowl.rim_height();
+    });
+}
+
+bool meets(const PipeShape& pipe, const Vec3& p, const Vec3& l) {
+    const Vec3 whole = pipe.to - pipe.from, axis = whole.normalized();
+    const auto across = [&axis](const Vec3& v) -> Vec3 { return v - axis.dot(v) * axis; };
+    const Vec3 rel = p - pipe.from;
+    return meets_wall(across(rel), across(l), pipe.radius, [&](double s) {
+        const Vec3 at = rel + s * l;
+        const double along = axis.dot(at);
+        if (along < 0 || along > whole.norm()) return false;
+        return pipe.is_tube() ||
+               -pipe.opening.dot(at) >= pipe.radius * std::cos(0.5 * pipe.angle);
+    });
+}
+
 /// Part of a disc of radius r that a disc-like obstacle of radius R hides, centres `across` apart:
 /// a smooth ramp between apart (0) and one within the other (1).
 double hidden_part(double across, double obstacle, double r) {
@@ -114,6 +148,15 @@ SurfaceShape in_view(const RingShape& ring, const View& view, const Quat&) {
                      ring.tube_radius};
 }
 
+SurfaceShape in_view(const BowlShape& bowl, const View& view, const Quat&) {
+    return BowlShape{view_point(view, bowl.center), bowl.radius, view_direction(view, bowl.opening),
+                     bowl.depth};
+}
+SurfaceShape in_view(const PipeShape& pipe, const View& view, const Quat&) {
+    return PipeShape{view_point(view, pipe.from), view_point(view, pipe.to), pipe.radius,
+                     view_direction(view, pipe.opening), pipe.angle};
+}
+
 /// A ball in the light of the lamp, past a body whose middle is at `along` towards the lamp and at
 /// `across` from the line to it.
 struct InLight {
@@ -152,6 +195,8 @@ double hidden_by(const CylinderShape& cylinder, const InLight& at) {
     return hidden_of_rays(cylinder, at);
 }
 double hidden_by(const RingShape& ring, const InLight& at) { return hidden_of_rays(ring, at); }
+double hidden_by(const BowlShape& bowl, const InLight& at) { return hidden_of_rays(bowl, at); }
+double hidden_by(const PipeShape& pipe, const InLight& at) { return hidden_of_rays(pipe, at); }
 
 }  // namespace
 

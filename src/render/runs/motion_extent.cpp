@@ -6,6 +6,8 @@
 #include <numbers>
 #include <variant>
 
+#include "geometry/nearest.h"
+
 namespace carom {
 
 using Box = Eigen::AlignedBox3d;
@@ -194,6 +196,26 @@ void MotionExtent::add_surfaces(const Scene& scene) {
                     for (const Vec3& p : on_circle(ring.center, ring.axis, ring.radius))
                         tube.push_back({p, ring.tube_radius, 0});
                     return tube;
+                },
+                [](const BowlShape& bowl) {
+                    Blobs wall;
+                    for (int ring = 0; ring <= 6; ++ring) {
+                        const double up = bowl.depth * ring / 6 - bowl.radius;
+                        const double wide = bowl.radius * bowl.radius - up * up;
+                        for (const Vec3& p :
+                             on_circle(bowl.center + up * bowl.opening, bowl.opening,
+                                       std::sqrt(std::max(wide, 0.0))))
+                            wall.push_back({p, 0, 0});
+                    }
+                    return wall;
+                },
+                [](const PipeShape& pipe) {
+                    Blobs wall;
+                    const Vec3 axis = (pipe.to - pipe.from).normalized();
+                    for (const Vec3& end : {pipe.from, pipe.to})
+                        for (const Vec3& p : on_circle(end, axis, pipe.radius))
+                            wall.push_back({nearest_on(pipe, p, 0).point, 0, 0});
+                    return wall;
                 }},
             surface.shape);
         if (!blobs.empty()) add_surface(blobs);

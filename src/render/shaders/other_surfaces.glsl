@@ -2,7 +2,7 @@
 // Their records say of which kind they are, as OtherKind of surface_table.h numbers them.
 
 #ifdef OTHERS
-const float kCapsule = 0.0, kCylinder = 1.0, kRing = 2.0;
+const float kCapsule = 0.0, kCylinder = 1.0, kRing = 2.0, kBowl = 3.0, kPipe = 4.0;
 #endif
 
 #ifdef CAPSULES
@@ -205,31 +205,9 @@ float light_past_ring(Ring ring, vec3 p, float blur) {
     float half_way = around + spread;
     vec2 one = nearest_to_circle(ring, p, u_light, max(middle - half_way, 0.0), max(middle, 0.0));
     vec2 two = nearest_to_circle(ring, p, u_light, max(middle, 0.0), max(middle + half_way, 0.0));
-    float hidden = 1.0 - hidden_by_tube(two.y, two.x, ring.tube, blur);
+    float left = 1.0 - hidden_by_tube(two.y, two.x, ring.tube, blur);
     // Seen edge-on, or where a ray begins within the ring, both are one.
-    if (abs(one.y - two.y) > ring.tube) hidden *= 1.0 - hidden_by_tube(one.y, one.x, ring.tube, blur);
-    return hidden;
-}
-#endif
-
-#ifdef OTHERS
-void meet_others(inout Hit hit, vec3 d) {
-    int i = v_seen.z;
-    do {
-        bool here = i < v_seen.w;
-        int item = listed(i);
-        vec4 a = surface(item, 0) - vec4(g_start, 0.0);
-        vec4 b = surface(item, 1);
-#ifdef CAPSULES
-        if (b.w == kCapsule) meet_capsule(hit, d, item, here, a, b.xyz);
-#endif
-#ifdef CYLINDERS
-        if (b.w == kCylinder) meet_cylinder(hit, d, item, here, a, b.xyz);
-#endif
-#ifdef RINGS
-        if (b.w == kRing)
-            meet_ring(hit, d, item, here, Ring(a.xyz, b.xyz, a.w, surface(item, 2).x));
-#endif
-    } while (++i < v_seen.w);
+    if (abs(one.y - two.y) > ring.tube) left *= 1.0 - hidden_by_tube(one.y, one.x, ring.tube, blur);
+    return left;
 }
 #endif

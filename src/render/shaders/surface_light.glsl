@@ -1,5 +1,30 @@
 // Which surface a ray meets first, and what others take from the light there.
 
+#ifdef OTHERS
+void meet_others(inout Hit hit, vec3 d) {
+    int i = v_seen.z;
+    do {
+        bool here = i < v_seen.w;
+        int item = listed(i);
+        vec4 a = surface(item, 0) - vec4(g_start, 0.0);
+        vec4 b = surface(item, 1);
+#ifdef CAPSULES
+        if (b.w == kCapsule) meet_capsule(hit, d, item, here, a, b.xyz);
+#endif
+#ifdef CYLINDERS
+        if (b.w == kCylinder) meet_cylinder(hit, d, item, here, a, b.xyz);
+#endif
+#ifdef SHELLS
+        if (b.w >= kBowl) meet_shell(hit, d, item, here, shell_of(a, b, surface(item, 2)));
+#endif
+#ifdef RINGS
+        if (b.w == kRing)
+            meet_ring(hit, d, item, here, Ring(a.xyz, b.xyz, a.w, surface(item, 2).x));
+#endif
+    } while (++i < v_seen.w);
+}
+#endif
+
 Hit nearest_surface(vec3 d) {
     Hit hit = Hit(kFar, -1, vec3(0.0, 0.0, -1.0), 0, false, vec2(0.0));
 #ifdef PLANES
@@ -19,7 +44,7 @@ Hit nearest_surface(vec3 d) {
 
 vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
 
-#if defined(BOXES) || defined(CYLINDERS)
+#if defined(BOXES) || defined(CYLINDERS) || defined(SHELLS)
 #define SAMPLED  // they hide parts of the lamp that are found ray by ray
 // Sunflower spiral: even over the disc for any count. A step turns by the golden angle; the first one
 // by half of it and by that of the rays before.
@@ -45,8 +70,8 @@ float outside_box(vec3 q) { return length(max(q, 0.0)) + min(max(max(q.x, q.y), 
 // What other surfaces take from the light at p, whose normal is n; both lights are looked up in one
 // pass over the bodies, since reading one costs more than what is done with it.
 // x: the part of the key light that reaches the point, lifted by `lift`, past the static bodies. Planes
-// cast no shadow: a wall between the lamp and the scene would put everything in the dark. Boxes and
-// cylinders are sampled over the lamp's disc and over the pixel, which reaches px and py along the
+// cast no shadow: a wall between the lamp and the scene would put everything in the dark. Boxes,
+// cylinders and hollow bodies are sampled over the lamp's disc and over the pixel, which reaches px and py along the
 // surface, with 64 rays.
 // y: 1 in the open, less where other surfaces come close within `reach` above the point, looked up at
 // three heights.
@@ -203,6 +228,29 @@ vec2 open_to_light(vec3 p, vec3 n, float lift, vec3 px, vec3 py, int own, float 
             gap = vec3(from_circle(ring, p + heights.x * n), from_circle(ring, p + heights.y * n),
                        from_circle(ring, p + heights.z * n)) - ring.tube;
             if (other) visible *= light_past_ring(ring, p + lift * n, blur);
+        }
+#endif
+#ifdef SHELLS
+        if (b.w >= kBowl) {
+            // Hollow: it takes light from itself too.
+            bool listed_here = c < v_shading.w;
+            Shell shell = shell_of(a, b, surface(item, 2));
+            gap = vec3(from_shell(shell, p + heights.x * n), from_shell(shell, p + heights.y * n),
+                       from_shell(shell, p + heights.z * n));
+            vec3 from = p + lift * n - shell.middle;
+            int count = listed_here ? samples : 0;
+            float hidden = 0.0;
+            vec2 spoke = first_spoke;
+            int k = 0;
+            do {
+                float place = float(first + k) + 0.5;
+                vec3 l = lamp_ray(place, spoke, side, side2);
+                spoke = turned(spoke, kGolden);
+                // On the wall itself the pixel's width would lead through it.
+                vec3 off = item == own ? vec3(0.0) : within_pixel(place, px, py);
+                hidden += k < count && stands_in_way(shell, from + off, l) ? 1.0 : 0.0;
+            } while (++k < count);
+            visible *= 1.0 - hidden / float(max(count, 1));
         }
 #endif
         if (other) away = min(away, gap);

@@ -1,5 +1,5 @@
 // Rays that meet the static surfaces (surface_table.h says what a record holds).
-// PLANES, BOXES, SPHERES and OTHERS, and among these CAPSULES, CYLINDERS and RINGS, are defined where the
+// PLANES, BOXES, SPHERES and OTHERS, and among these CAPSULES, CYLINDERS, RINGS and SHELLS, are defined where the
 // scene has such (other_surfaces.glsl has their rays and distances); a software rasteriser
 // runs through every branch, so that code for what is not there would cost as much as the rest. It
 // also runs through a loop's body once more after the last lane has left at the top: loops leave at

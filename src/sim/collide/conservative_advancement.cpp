@@ -249,5 +249,9 @@ template TimeOfImpact advance_to_impact(const Path&, double, const CylinderShape
 template TimeOfImpact advance_to_impact(const HighDegreePath&, double, const CylinderShape&, bool);
 template TimeOfImpact advance_to_impact(const Path&, double, const RingShape&, bool, double);
 template TimeOfImpact advance_to_impact(const HighDegreePath&, double, const RingShape&, bool);
+template TimeOfImpact advance_to_impact(const Path&, double, const BowlShape&, bool, double);
+template TimeOfImpact advance_to_impact(const HighDegreePath&, double, const BowlShape&, bool);
+template TimeOfImpact advance_to_impact(const Path&, double, const PipeShape&, bool, double);
+template TimeOfImpact advance_to_impact(const HighDegreePath&, double, const PipeShape&, bool);
 
 }  // namespace carom

@@ -292,6 +292,14 @@ TimeOfImpact impact_with(const RingShape& ring, const Path& ball, double radius,
                          double horizon) {
     return advance_to_impact(ball, radius, ring, touching, horizon);
 }
+TimeOfImpact impact_with(const BowlShape& bowl, const Path& ball, double radius, bool touching,
+                         double horizon) {
+    return advance_to_impact(ball, radius, bowl, touching, horizon);
+}
+TimeOfImpact impact_with(const PipeShape& pipe, const Path& ball, double radius, bool touching,
+                         double horizon) {
+    return advance_to_impact(ball, radius, pipe, touching, horizon);
+}
 
 }  // namespace
 

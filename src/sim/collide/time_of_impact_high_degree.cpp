@@ -190,6 +190,14 @@ TimeOfImpact impact_with(const RingShape& ring, const HighDegreePath& ball, doub
                          bool touching) {
     return advance_to_impact(ball, radius, ring, touching);
 }
+TimeOfImpact impact_with(const BowlShape& bowl, const HighDegreePath& ball, double radius,
+                         bool touching) {
+    return advance_to_impact(ball, radius, bowl, touching);
+}
+TimeOfImpact impact_with(const PipeShape& pipe, const HighDegreePath& ball, double radius,
+                         bool touching) {
+    return advance_to_impact(ball, radius, pipe, touching);
+}
 
 }  // namespace
 

@@ -48,6 +48,9 @@ dGeomID make_geom(dSpaceID space, const CylinderShape& cylinder) {
 
 dGeomID make_geom(dSpaceID space, const RingShape& ring) { return make_surface_geom(space, ring); }
 
+dGeomID make_geom(dSpaceID space, const BowlShape& bowl) { return make_surface_geom(space, bowl); }
+dGeomID make_geom(dSpaceID space, const PipeShape& pipe) { return make_surface_geom(space, pipe); }
+
 OdeSpacePtr make_ball_space(std::size_t balls) {
     if (balls < kManyBalls) return OdeSpacePtr(dSimpleSpaceCreate(nullptr));
     return OdeSpacePtr(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ));
