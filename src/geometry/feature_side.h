@@ -33,8 +33,8 @@ inline int side_of(const AxisMotion& m, double half, double border, double speed
     return sign * (moves ? m.rate : m.pull) > 0 ? sign : 0;
 }
 
-/// Whether a motion leads beyond a border that is at `place` 0. On it, `border` [m] wide to both sides,
-/// what side_of() says counts.
+/// Whether a motion leads beyond a border that is at `place` 0. On it, `border` [m] wide to both
+/// sides, what side_of() says counts.
 inline bool leads_beyond(const AxisMotion& m, double border, double speed) {
     if (std::abs(m.place) > border) return m.place > 0;
     return (std::abs(m.rate) > kAlongBorder * speed ? m.rate : m.pull) > 0;

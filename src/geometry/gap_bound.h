@@ -26,8 +26,8 @@ GapBound gap_bound(const RingShape& ring, const Vec3& center, double radius);
 /// The distance from the inside of a round wall bends downwards by 1 / (distance from its middle),
 /// that from its rim as from a ring. Both join smoothly where the rim begins.
 GapBound gap_bound(const BowlShape& bowl, const Vec3& center, double radius);
-/// The same; the axis is the middle of the wall and of the ends. Opposite to the wall both edges are
-/// as near, and only the way itself bounds what the gap may lose.
+/// The same; the axis is the middle of the wall and of the ends. Opposite to the wall both edges
+/// are as near, and only the way itself bounds what the gap may lose.
 GapBound gap_bound(const PipeShape& pipe, const Vec3& center, double radius);
 
 }  // namespace carom

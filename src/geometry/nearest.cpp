@@ -32,8 +32,8 @@ Nearest nearest_on_circle(const Vec3& middle, const Vec3& axis, double core_radi
     return {gap, normal, center - (gap + radius) * normal};
 }
 
-/// Of a round wall at `wall` [m] from `core`, from which the ball's centre lies at `from_core`; where
-/// that is 0, the wall is met in the direction `else_out`.
+/// Of a round wall at `wall` [m] from `core`, from which the ball's centre lies at `from_core`;
+/// where that is 0, the wall is met in the direction `else_out`.
 Nearest nearest_on_wall(const Vec3& core, double wall, const Vec3& from_core, const Vec3& else_out,
                         double radius) {
     const double away = from_core.norm();

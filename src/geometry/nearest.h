@@ -25,8 +25,8 @@ Nearest nearest_on(const BowlShape& bowl, const Vec3& center, double radius);
 Nearest nearest_on(const PipeShape& pipe, const Vec3& center, double radius);
 Nearest nearest_on(const SurfaceShape& shape, const Vec3& center, double radius);
 
-/// Distance from a point to the surface of a shape, m; negative inside, and behind a plane. Bowls and
-/// pipes have no inside: they are walls.
+/// Distance from a point to the surface of a shape, m; negative inside, and behind a plane. Bowls
+/// and pipes have no inside: they are walls.
 double signed_distance(const SurfaceShape& shape, const Vec3& point);
 
 }  // namespace carom

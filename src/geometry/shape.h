@@ -107,11 +107,11 @@ PerShape(Cases...) -> PerShape<Cases...>;
 /// Whether a shape goes on without end: a plane.
 inline bool is_unbounded(const SurfaceShape& shape) {
     return std::visit(
-        PerShape{
-            [](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
-            [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
-            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; }, [](const BowlShape&) { return false; },
-                 [](const PipeShape&) { return false; }},
+        PerShape{[](const PlaneShape&) { return true; }, [](const BoxShape&) { return false; },
+                 [](const SphereShape&) { return false; },
+                 [](const CapsuleShape&) { return false; },
+                 [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; },
+                 [](const BowlShape&) { return false; }, [](const PipeShape&) { return false; }},
         shape);
 }
 

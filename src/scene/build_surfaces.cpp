@@ -120,8 +120,7 @@ ReadShape read_bowl(Build& build, const Fields& fields, const Node& node) {
     bowl.depth = fields.maybe_number("depth").value_or(bowl.radius);
     if (bowl.opening.norm() < kShortest) {
         const Node* opening = fields.find("opening");
-        build.report.error(opening != nullptr ? *opening : node,
-                           "the bowl's opening has length 0");
+        build.report.error(opening != nullptr ? *opening : node, "the bowl's opening has length 0");
         return {bowl, false};
     }
     bowl.opening.normalize();

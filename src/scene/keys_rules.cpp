@@ -50,7 +50,8 @@ std::vector<SectionDoc> section_docs() {
          "A solid cylinder with flat ends; balls meet its rims as edges."},
         {kRing, "ring", "surfaces[].ring", "All points within `tube_radius` of a circle: a torus."},
         {kBowl, "bowl", "surfaces[].bowl",
-         "The part of a sphere up to `depth` from its lowest point: a wall without thickness, which "
+         "The part of a sphere up to `depth` from its lowest point: a wall without thickness, "
+         "which "
          "balls meet from inside, from outside and at its rim."},
         {kPipe, "pipe", "surfaces[].pipe",
          "The part of a cylinder around a segment, within angle_deg/2 of the direction opposite to "

@@ -1,4 +1,5 @@
-// The rows of the table that describe materials, looks and surfaces; keys_shapes.cpp has their shapes.
+// The rows of the table that describe materials, looks and surfaces; keys_shapes.cpp has their
+// shapes.
 #include "scene/keys.h"
 
 namespace carom {

@@ -77,8 +77,10 @@ TEST(Translation, APlaneFarAwayLosesOneRounding) {
 }
 
 TEST(Shapes, AreEqualWhereTheirNumbersAre) {
-    for (const SurfaceShape& a : one_of_each())
-        for (const SurfaceShape& b : one_of_each()) EXPECT_EQ(a == b, a.index() == b.index());
+    const std::vector<SurfaceShape> all = one_of_each();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = 0; j < all.size(); ++j)
+            EXPECT_EQ(all[i] == one_of_each()[j], i == j) << i << ", " << j;
 }
 
 }  // namespace

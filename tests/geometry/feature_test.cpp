@@ -112,10 +112,9 @@ TEST(Feature, NormalsTurnAsTheyDoOverAShortTime) {
             const Vec3 far = (normal(2 * kStep) - normal(-2 * kStep)) / (4 * kStep);
             worst = std::max(worst, (m.normal_rate - (4 * near - far) / 3).norm());
             EXPECT_LT((m.normal - f.normal_at(x)).norm(), kRounding);
-            // Along the surface the distance changes at second order by what the law asks.
-            const auto distance = [&](double s) { return f.from_core(x + s * v).norm(); };
-            const double bend =
-                (distance(kStep) + distance(-kStep) - 2 * distance(0)) / (kStep * kStep);
+            // The gap changes at second order by what the law asks.
+            const auto gap = [&](double s) { return f.gap_at(x + s * v); };
+            const double bend = (gap(kStep) + gap(-kStep) - 2 * gap(0)) / (kStep * kStep);
             EXPECT_NEAR(bend, m.turning_speed.dot(m.normal_rate), 1e-6) << shape.index();
         }
     std::printf("rates of normals: within %.2g 1/s\n", worst);

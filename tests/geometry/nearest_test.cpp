@@ -75,10 +75,10 @@ TEST(Nearest, APipeHasAWallEdgesAndEnds) {
     EXPECT_NEAR(nearest_on(half, {1, 0, -0.3}, 0.2).gap, 0.5, kRounding);
     EXPECT_EQ(nearest_on(half, {1, 0, -0.3}, 0.2).normal, Vec3::UnitZ());
     EXPECT_NEAR(nearest_on(half, {1, 0, -1.5}, 0.2).gap, 0.3, kRounding);
-    EXPECT_NEAR(nearest_on(half, {1, 1.3, 0.4}, 0.2).gap, 0.3, kRounding);     // an edge
-    EXPECT_NEAR(nearest_on(half, {1, -1.3, 0.4}, 0.2).gap, 0.3, kRounding);    // the other
-    EXPECT_NEAR(nearest_on(half, {2.4, 0, -1.3}, 0.2).gap, 0.3, kRounding);    // an end
-    EXPECT_NEAR(nearest_on(half, {-2, 1 + 1, 2}, 0.2).gap, 2.8, kRounding);    // a corner: 2-1-2
+    EXPECT_NEAR(nearest_on(half, {1, 1.3, 0.4}, 0.2).gap, 0.3, kRounding);   // an edge
+    EXPECT_NEAR(nearest_on(half, {1, -1.3, 0.4}, 0.2).gap, 0.3, kRounding);  // the other
+    EXPECT_NEAR(nearest_on(half, {2.4, 0, -1.3}, 0.2).gap, 0.3, kRounding);  // an end
+    EXPECT_NEAR(nearest_on(half, {-2, 1 + 1, 2}, 0.2).gap, 2.8, kRounding);  // a corner: 2-1-2
     const PipeShape tube{Vec3::Zero(), Vec3(2, 0, 0), 1, Vec3::UnitZ(), 7};
     EXPECT_NEAR(nearest_on(tube, {1, 0, 0.7}, 0.2).gap, 0.1, kRounding);
 }

@@ -165,10 +165,10 @@ TEST(EdgeQuality, HollowBodiesMatchSixtyFourSamples) {
     const int body = scene.look(LookStyle::kPlain, {0.3, 0.4, 0.5});
     scene.surface(PlaneShape{}, floor);
     scene.surface(BowlShape{{0.6, 0, 0.4}, 0.4, Vec3(-0.2, -0.3, 0.9).normalized(), 0.35}, body);
-    scene.surface(PipeShape{{-1.1, 0.3, 0.3}, {-0.2, -0.2, 0.4}, 0.25,
-                            Vec3::UnitZ(), 7},
-                  body);
-    scene.surface(PipeShape{{-0.8, 0.6, 0.9}, {0.6, 0.6, 1.0}, 0.15, Vec3::UnitZ(), 3.2}, body);
+    scene.surface(PipeShape{{-1.1, 0.3, 0.3}, {-0.2, -0.2, 0.4}, 0.25, Vec3::UnitZ(), 7}, body);
+    scene.surface(
+        PipeShape{{-0.8, 0.6, 0.9}, {0.6, 0.6, 1.0}, 0.15, Vec3(-0.1, 0, 1.4).normalized(), 3.2},
+        body);
     scene.ball({0.6, 0, 0.2}, 0.1, scene.look(LookStyle::kPlain, {0.8, 0.2, 0.1}));
     expect_like_reference(scene);
 }

@@ -44,7 +44,8 @@ HandMadeScene round_bodies() {
     scene.surface(CylinderShape{Vec3(0.9, 0.2, 0), Vec3(0.8, 0.3, 0.5), 0.15});
     scene.surface(RingShape{Vec3(0.2, -0.3, 0.8), Vec3(0.3, -0.5, 0.8).normalized(), 0.3, 0.03});
     scene.surface(BowlShape{Vec3(-1, -0.5, 0.3), 0.3, Vec3(0.2, -0.3, 0.9).normalized(), 0.2});
-    scene.surface(PipeShape{Vec3(1.1, -0.6, 0.1), Vec3(1.3, 0.6, 0.3), 0.15, Vec3::UnitZ(), 3});
+    scene.surface(PipeShape{Vec3(1.1, -0.6, 0.1), Vec3(1.3, 0.6, 0.3), 0.15,
+                            Vec3(0, -0.2, 1.2).normalized(), 3});
     return scene;
 }
 

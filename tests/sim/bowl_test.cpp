@@ -20,8 +20,8 @@ Scene with_bowl(double depth, double restitution, double friction) {
     return scene;
 }
 
-/// From rest at the angle a from the lowest point: half a swing takes 2 sqrt(L/g) K(sin(a/2)); rolling
-/// makes the ball's inertia larger by 1 + k.
+/// From rest at the angle a from the lowest point: half a swing takes 2 sqrt(L/g) K(sin(a/2));
+/// rolling makes the ball's inertia larger by 1 + k.
 TEST(Bowl, ABallSwingsAsAPendulum) {
     for (const bool rolls : {false, true})
         for (const double a : {0.1, 0.8, 1.5}) {
@@ -29,15 +29,15 @@ TEST(Bowl, ABallSwingsAsAPendulum) {
             const Vec3 start(kLength * std::sin(a), 0, -kLength * std::cos(a));
             add_ball(scene, start);
             const double slower = rolls ? 1 + kSolid : 1;
-            const double half = 2 * std::sqrt(slower * kLength / kGravity) *
-                                std::comp_ellint_1(std::sin(a / 2));
+            const double half =
+                2 * std::sqrt(slower * kLength / kGravity) * std::comp_ellint_1(std::sin(a / 2));
             const SimulationResult r = run(scene, 4 * half);
             double worst = 0;
             for (int i = 1; i <= 4; ++i) {
                 const Vec3 side(i % 2 == 0 ? 1 : -1, 1, 1);
-                worst = std::max(worst, (r.motion.balls[0].at(i * half).position -
-                                         start.cwiseProduct(side))
-                                            .norm());
+                worst = std::max(
+                    worst,
+                    (r.motion.balls[0].at(i * half).position - start.cwiseProduct(side)).norm());
             }
             std::printf("from %.1f rad%s: four swings off by %.2g m\n", a, rolls ? ", rolling" : "",
                         worst);
@@ -81,9 +81,9 @@ TEST(Bowl, BallsAreReflectedFromAllItsSides) {
                   1e-13);
     };
     const Vec3 out(0.6, 0, -0.8), down(0, 0, -speed);
-    expect(kR, kLength * out, -out, speed * Vec3(0.6, 0, -0.8));        // inside
-    expect(kR, (kR + kBall) * out, out, speed * Vec3(-0.8, 0, 0.6));    // outside
-    expect(kR, Vec3(kR, 0, 0) + kBall * Vec3(0.6, 0, 0.8), Vec3(0.6, 0, 0.8), down);   // the rim
+    expect(kR, kLength * out, -out, speed * Vec3(0.6, 0, -0.8));                      // inside
+    expect(kR, (kR + kBall) * out, out, speed * Vec3(-0.8, 0, 0.6));                  // outside
+    expect(kR, Vec3(kR, 0, 0) + kBall * Vec3(0.6, 0, 0.8), Vec3(0.6, 0, 0.8), down);  // the rim
     expect(kR, Vec3(kR, 0, 0) + kBall * Vec3(-0.6, 0, 0.8), Vec3(-0.6, 0, 0.8), down);
     // A rim at 3/5 of the radius below the middle: its circle has 4/5 of it.
     expect(0.4 * kR, Vec3(0.8 * kR, 0, -0.6 * kR) + kBall * Vec3::UnitZ(), Vec3::UnitZ(), down);
@@ -112,8 +112,8 @@ TEST(Bowl, NoBallGetsOutOfAClosedSphere) {
     double drift = 0, farthest = 0;
     for (int i = 0; i <= 500; ++i) {
         const BallState s = r.motion.balls[0].at(0.01 * i);
-        drift = std::max(drift,
-                         std::abs(energy(scene, s) - energy(scene, r.motion.balls[0].at(0))));
+        drift =
+            std::max(drift, std::abs(energy(scene, s) - energy(scene, r.motion.balls[0].at(0))));
         farthest = std::max(farthest, s.position.norm());
     }
     std::printf("%zu impacts, energy off by %.2g m^2/s^2, out by %.2g m\n",
@@ -152,7 +152,7 @@ TEST(Bowl, ABallRestsAtTheBottom) {
 /// A ball too large for the opening sits on the rim all around.
 TEST(Bowl, ALargeBallSitsOnTheRim) {
     Scene scene = with_bowl(0.2, 0.5, 0.3);  // the rim's radius is 0.4 m, at z = -0.3 m
-    const double radius = 0.4 / 0.6;  // 3-4-5: its centre is 0.8 of the radius above the rim
+    const double radius = 0.4 / 0.6;         // 3-4-5: its centre is 0.8 of the radius above the rim
     add_ball(scene, Vec3(0, 0, 0.7), Vec3::Zero(), radius);
     const SimulationResult r = run(scene, 4);
     EXPECT_LT((r.motion.balls[0].at(4).position - Vec3(0, 0, -0.3 + 0.8 * radius)).norm(), 1e-14);

@@ -20,8 +20,7 @@ constexpr double kTube = 7;  ///< rad: all around
 
 Scene with_pipe(double angle, double restitution, double friction) {
     Scene scene = exact_scene(restitution, friction, kGravity);
-    add_surface(scene, "pipe",
-                PipeShape{Vec3(-2, 0, 0), Vec3(2, 0, 0), kR, Vec3::UnitZ(), angle});
+    add_surface(scene, "pipe", PipeShape{Vec3(-2, 0, 0), Vec3(2, 0, 0), kR, Vec3::UnitZ(), angle});
     return scene;
 }
 
@@ -31,8 +30,7 @@ TEST(Pipe, ABallSwingsInAHalfPipe) {
         Scene scene = with_pipe(std::numbers::pi, 0, 0);
         const Vec3 start(-1.5, kLength * std::sin(a), -kLength * std::cos(a));
         add_ball(scene, start, Vec3(0.4, 0, 0));
-        const double half =
-            2 * std::sqrt(kLength / kGravity) * std::comp_ellint_1(std::sin(a / 2));
+        const double half = 2 * std::sqrt(kLength / kGravity) * std::comp_ellint_1(std::sin(a / 2));
         const SimulationResult r = run(scene, 4 * half);
         double worst = 0;
         for (int i = 1; i <= 4; ++i) {
@@ -89,9 +87,9 @@ TEST(Pipe, BallsAreReflectedFromAllItsSides) {
     expect(Vec3(0.3, kR, 0) + kBall * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8), down);  // an edge
     expect(Vec3(0.3, -kR, 0) + kBall * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8), down);
     expect(Vec3(2, 0, 0) + kR * out + kBall * Vec3(0.8, 0.36, -0.48), Vec3(0.8, 0.36, -0.48),
-           back);                                                                    // an end
+           back);  // an end
     expect(Vec3(2, 0, 0) + kR * out + kBall * Vec3(0.8, -0.36, 0.48), Vec3(0.8, -0.36, 0.48), back);
-    expect(Vec3(2, kR, 0) + kBall * Vec3(2, 1, 2) / 3, Vec3(2, 1, 2) / 3, down);     // a corner
+    expect(Vec3(2, kR, 0) + kBall * Vec3(2, 1, 2) / 3, Vec3(2, 1, 2) / 3, down);  // a corner
 }
 
 /// Out of the end of a sloping pipe, rolling: over the arc in which it ends.
@@ -137,8 +135,8 @@ TEST(Pipe, NoBallLeavesATubeThroughItsWall) {
     double drift = 0, farthest = 0;
     for (int i = 0; i <= 500; ++i) {
         const BallState s = r.motion.balls[0].at(0.01 * i);
-        drift = std::max(drift,
-                         std::abs(energy(scene, s) - energy(scene, r.motion.balls[0].at(0))));
+        drift =
+            std::max(drift, std::abs(energy(scene, s) - energy(scene, r.motion.balls[0].at(0))));
         farthest = std::max(farthest, s.position.tail<2>().norm());
     }
     EXPECT_LT(drift, 1e-11);

@@ -67,8 +67,9 @@ GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
     if (std::find(defines.begin(), defines.end(), kManyPlanes) != defines.end())
         vertex_defines.push_back(kManyPlanes);
     sources.vertex = assemble_shader(vertex_defines, {"background_vertex"});
-    sources.fragment = assemble_shader(defines, {"surfaces", "other_surfaces", "shells", "surface_light",
-                                                 "surface_patterns", "background_fragment"});
+    sources.fragment =
+        assemble_shader(defines, {"surfaces", "other_surfaces", "shells", "surface_light",
+                                  "surface_patterns", "background_fragment"});
     sources.attributes = {"a_rectangle", "a_seen", "a_shading", "a_planes"};
     sources.outputs = {"out_color", "out_g_buffer"};  // as BackgroundPicture::targets() has them
     if (kind.occludes) sources.outputs.push_back("out_front");

@@ -51,7 +51,7 @@ SurfaceBound cylinder_bound(const Vec3& from, const Vec3& along, double radius) 
     const Vec3 u = along.unitOrthogonal() * radius, v = along.normalized().cross(u);
     for (const Vec3& end : {from, Vec3(from + along)})
         for (const Vec3& p : octagon_around(end, u, v)) bound.cores.push_back(p);
-    bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    bound.axes = {u.normalized(), v.normalized(), along.normalized()};
     bound.center = from + 0.5 * along;
     bound.radius = std::hypot(0.5 * along.norm(), radius);
     return bound;
@@ -75,9 +75,9 @@ SurfaceBound bowl_bound(const Vec3& center, const Vec3& opening, double radius,
     const double wide = rim.x() >= 0 ? radius : rim.y(), half = 0.5 * (rim.x() + radius);
     SurfaceBound bound;
     const Vec3 u = opening.unitOrthogonal(), v = opening.cross(u);
-    bound.cores = cube_corners(center + (rim.x() - half) * opening, wide * u, wide * v,
-                               half * opening);
-    bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    bound.cores =
+        cube_corners(center + (rim.x() - half) * opening, wide * u, wide * v, half * opening);
+    bound.axes = {u, v, opening};
     bound.center = center;
     bound.radius = radius;
     bound.shades_itself = true;

@@ -12,7 +12,7 @@ namespace carom {
 struct SurfaceBound {
     std::vector<Vec3>
         cores;  ///< corners of a box or around a cylinder, middle of a sphere, ends of a capsule
-    std::array<Vec3, 3> axes{};  ///< unit: those of a box, or of view space
+    std::array<Vec3, 3> axes{};  ///< unit: those of the body, or of view space
     double thick = 0;            ///< 0 for a box
     Vec3 center = Vec3::Zero();
     double radius = 0;  ///< of a sphere around everything

@@ -54,12 +54,11 @@ std::optional<Mirror> mirror_of(const PipeShape&, const View&) { return std::nul
 
 bool can_mirror(const SurfaceShape& shape) {
     return std::visit(
-        PerShape{
-            [](const PlaneShape&) { return true; }, [](const BoxShape&) { return true; },
-            [](const SphereShape&) { return false; }, [](const CapsuleShape&) { return false; },
-            [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; },
-                 [](const BowlShape&) { return false; },
-                 [](const PipeShape&) { return false; }},
+        PerShape{[](const PlaneShape&) { return true; }, [](const BoxShape&) { return true; },
+                 [](const SphereShape&) { return false; },
+                 [](const CapsuleShape&) { return false; },
+                 [](const CylinderShape&) { return false; }, [](const RingShape&) { return false; },
+                 [](const BowlShape&) { return false; }, [](const PipeShape&) { return false; }},
         shape);
 }
 

@@ -74,8 +74,8 @@ bool meets(const RingShape& ring, const Vec3& p, const Vec3& l) {
     return false;
 }
 
-/// Does the ray from p along l, which is unit, meet the wall where `holds` says that it is one? Both
-/// ways through its whole sphere or cylinder, seen across the axis, are looked at.
+/// Does the ray from p along l, which is unit, meet the wall where `holds` says that it is one?
+/// Both ways through its whole sphere or cylinder, seen across the axis, are looked at.
 template <class Holds>
 bool meets_wall(const Vec3& rel, const Vec3& l, double radius, const Holds& holds) {
     const double rate = l.squaredNorm();
@@ -90,9 +90,8 @@ bool meets_wall(const Vec3& rel, const Vec3& l, double radius, const Holds& hold
 
 bool meets(const BowlShape& bowl, const Vec3& p, const Vec3& l) {
     const Vec3 rel = p - bowl.center;
-    return meets_wall(rel, l, bowl.radius, [&](double s) {
-        return bowl.opening.dot(rel + s * l) <= bowl.rim_height();
-    });
+    return meets_wall(rel, l, bowl.radius,
+                      [&](double s) { return bowl.opening.dot(rel + s * l) <= bowl.rim_height(); });
 }
 
 bool meets(const PipeShape& pipe, const Vec3& p, const Vec3& l) {
@@ -103,8 +102,7 @@ bool meets(const PipeShape& pipe, const Vec3& p, const Vec3& l) {
         const Vec3 at = rel + s * l;
         const double along = axis.dot(at);
         if (along < 0 || along > whole.norm()) return false;
-        return pipe.is_tube() ||
-               -pipe.opening.dot(at) >= pipe.radius * std::cos(0.5 * pipe.angle);
+        return pipe.is_tube() || -pipe.opening.dot(at) >= pipe.radius * std::cos(0.5 * pipe.angle);
     });
 }
 

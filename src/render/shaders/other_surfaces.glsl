@@ -141,22 +141,24 @@ vec2 near_ring(vec3 d, Ring ring, float wider) {
 }
 
 void meet_ring(inout Hit hit, vec3 d, int item, bool here, Ring ring) {
-    const int kSteps = 64;
+    const int kSteps = 96;
     const float kMet = 0.01;  // pixels
     float speed = length(d);
     float farthest = length(ring.center) + ring.radius + ring.tube;
     float wider = kEdgeReach * pixel_on(farthest);
     vec2 way = near_ring(d, ring, wider);
     // Along the ray by the distance from the ring, which is how far it certainly does not meet it.
-    float t = max(way.x, 0.0), gap = kFar, passes = kFar;
-    bool met = false;
+    float t = max(way.x, 0.0), last = kFar;
+    bool met = false, passes = false;
     int step = 0;
     bool on = here && way.x < way.y;
     do {
         if (on) {
-            gap = from_circle(ring, t * d) - ring.tube;
+            float gap = from_circle(ring, t * d) - ring.tube;
             float pixel = pixel_on(t);
-            passes = min(passes, gap / pixel);
+            // It has come near, and goes away again: what lies behind is seen past an edge.
+            passes = passes || (last < kEdgeReach && gap > last * pixel);
+            last = gap / pixel;
             met = gap < kMet * pixel;
             if (!met) t += max(gap, kMet * pixel) / speed;
             on = !met && t < way.y;
@@ -173,7 +175,7 @@ void meet_ring(inout Hit hit, vec3 d, int item, bool here, Ring ring) {
         if (t < hit.t && to_outline < kEdgeReach * pixel_on(t)) hit.edge = true;
         take(hit, t, item, n, 0, d);
     }
-    if (here && passes < kEdgeReach && passes > kMet && way.x < hit.t) hit.edge = true;
+    if (here && (passes || (!met && last < kEdgeReach)) && way.x < hit.t) hit.edge = true;
 }
 
 // Where the ray p + s l comes nearest to the circle between two places: distance and s. There is one
@@ -187,12 +189,12 @@ vec2 nearest_to_circle(Ring ring, vec3 p, vec3 l, float low, float high) {
     return vec2(from_circle(ring, p + s * l), s);
 }
 
-// Part of the key light that a rod hides, as hidden_by_ball(): one that looks thinner than the lamp
-// hides a strip of it.
+// Part of the key light that a rod hides, as hidden_by_ball(): a strip, softened over as much as the
+// penumbra and a pixel are wide.
 float hidden_by_tube(float along, float across, float radius, float blur) {
     float spread = max(along, 0.0) * u_light_tan;
     float width = sqrt(spread * spread + blur * blur) + 1e-6 * radius;
-    return smoothstep(-width, width, radius - across) * min(1.0, 1.27 * radius / width);
+    return smoothstep(-width, width, across + radius) - smoothstep(-width, width, across - radius);
 }
 
 // Part of the key light that the ring leaves to the place p.

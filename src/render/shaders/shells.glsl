@@ -44,28 +44,63 @@ vec3 through_shell(Shell s, vec3 p, vec3 d) {
     return vec3(middle - half_way, middle + half_way, passes);
 }
 
+// Whether the ray passes within a pixel by a place of the wall's border, before what it meets.
+bool passes_border(Hit hit, Shell s, vec3 place, vec3 d) {
+    vec3 seen = place + s.middle;
+    float t = dot(seen, d) / dot(d, d);
+    return t > 0.0 && t < hit.t && length(seen - t * d) < kEdgeReach * pixel_on(t);
+}
+
+// The same of the circle or arc at the height z, next to the point p.
+bool passes_circle(Hit hit, Shell s, vec3 p, float z, vec3 d) {
+    vec3 across = p - dot(p, s.axis) * s.axis;
+    vec3 on = across * ((s.pipe ? s.radius : s.rim) / max(length(across), 1e-20)) + z * s.axis;
+    return (!s.pipe || inside_borders(s, on).y >= 0.0) && passes_border(hit, s, on, d);
+}
+
+// The same of a pipe's straight edge from `end` on.
+bool passes_edge(Hit hit, Shell s, vec3 end, vec3 d) {
+    vec3 seen = end + s.middle;
+    float dd = dot(d, d), along = dot(d, s.axis), det = dd - along * along;
+    float z = (along * dot(seen, d) - dd * dot(seen, s.axis)) / max(det, 1e-12 * dd);
+    return passes_border(hit, s, end + clamp(z, 0.0, s.whole) * s.axis, d);
+}
+
+// Where the ray comes through the plane of a circle, and where it meets the wall, its next point of the
+// circle is sought: of these the first is the nearer, unless the circle is seen edge-on.
+bool passes_borders(Hit hit, Shell s, vec3 one, vec3 two, vec3 d) {
+    bool near = false;
+    float dz = dot(d, s.axis), z0 = dot(s.middle, s.axis);
+    dz = abs(dz) < 1e-9 ? 1e-9 : dz;
+    for (int end = 0; end < (s.pipe ? 2 : 1); ++end) {
+        float z = s.pipe ? float(end) * s.whole : s.least;
+        vec3 through = ((z + z0) / dz) * d - s.middle;
+        near = near || passes_circle(hit, s, through, z, d) || passes_circle(hit, s, one, z, d) ||
+               passes_circle(hit, s, two, z, d);
+    }
+    if (s.pipe && s.least >= -1.0) {
+        vec3 side = s.radius * sqrt(max(1.0 - s.least * s.least, 0.0)) * cross(s.axis, s.opening);
+        vec3 back = -s.radius * s.least * s.opening;
+        near = near || passes_edge(hit, s, back + side, d) || passes_edge(hit, s, back - side, d);
+    }
+    return near;
+}
+
 void meet_shell(inout Hit hit, vec3 d, int item, bool here, Shell s) {
     vec3 ways = through_shell(s, -s.middle, d);
     bool through = ways.z < s.radius;
-    float outline = abs(ways.z - s.radius);
+    float middle = 0.5 * (ways.x + ways.y);
+    bool outline = abs(ways.z - s.radius) < kEdgeReach * pixel_on(middle) &&
+                   all(greaterThanEqual(inside_borders(s, middle * d - s.middle), vec2(0.0)));
+    if (here && outline && middle > 0.0 && middle < hit.t) hit.edge = true;
+    if (here && passes_borders(hit, s, ways.x * d - s.middle, ways.y * d - s.middle, d))
+        hit.edge = true;
     for (int side = 0; side < 2; ++side) {
         float t = side == 0 ? ways.x : ways.y;
         vec3 p = t * d - s.middle;
-        vec3 out_n = s.pipe ? p - dot(p, s.axis) * s.axis : p;
-        vec3 n = normalize(out_n);
+        vec3 n = normalize(s.pipe ? p - dot(p, s.axis) * s.axis : p);
         if (dot(n, d) > 0.0) n = -n;
-        // How far the point moves from pixel to pixel towards its borders.
-        float facing = min(dot(n, d), -1e-3);
-        vec3 px = g_right - d * (dot(n, g_right) / facing);
-        vec3 py = g_down - d * (dot(n, g_down) / facing);
-        vec2 moves = vec2(abs(dot(px, s.axis)) + abs(dot(py, s.axis)),
-                          abs(dot(px, s.opening)) + abs(dot(py, s.opening)));
-        float pixel = pixel_on(t);
-        vec2 inside = inside_borders(s, p), reach = kEdgeSteps * pixel * moves;
-        bool near = here && t > 0.0 && t < hit.t && all(greaterThan(inside, -reach - 2.0 * pixel));
-        if (near && outline < kEdgeReach * pixel) hit.edge = true;
-        if (near && through && any(lessThan(abs(inside), reach))) hit.edge = true;
-        if (here && through && t > 0.0 && all(greaterThanEqual(inside, vec2(0.0))))
+        if (here && through && t > 0.0 && all(greaterThanEqual(inside_borders(s, p), vec2(0.0))))
             take(hit, t * (1.0 - kBefore), item, n, 0, d);
     }
 }
