@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/failure.h"
-#include "sim/solve/canonical_order.h"
 #include "sim/solve/contact_joint.h"
 #include "sim/solve/contact_rows.h"
 #include "sim/solve/contact_sweeps.h"
@@ -162,20 +161,6 @@ void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<Solve
     ++sweeps_;
 }
 
-void ImpactSolver::solve_together(std::vector<ImpactBody>& bodies,
-                                  std::vector<SolverContact>& contacts, double time) {
-    const CanonicalOrder order(bodies, contacts);
-    if (order.is_given()) {
-        solve_many(bodies, contacts, time);
-        return;
-    }
-    std::vector<ImpactBody> sorted_bodies = order.sorted(bodies);
-    std::vector<SolverContact> sorted_contacts = order.sorted(contacts);
-    solve_many(sorted_bodies, sorted_contacts, time);
-    order.put_back(sorted_bodies, bodies);
-    order.put_back(sorted_contacts, contacts);
-}
-
 void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
                          double time) {
     for (SolverContact& c : contacts) {
@@ -187,7 +172,7 @@ void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<SolverCont
     if (contacts.size() == 1 && single_ == SingleContacts::kClosedForm)
         solve_single(bodies, contacts.front());
     else
-        solve_together(bodies, contacts, time);
+        solve_many(bodies, contacts, time);
     for (SolverContact& c : contacts) {
         const Vec3 relative = relative_velocity(
             c, bodies[static_cast<std::size_t>(c.body)].velocities, other_velocities(c, bodies));

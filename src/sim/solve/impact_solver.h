@@ -39,8 +39,6 @@ class ImpactSolver {
   private:
     struct World;
     void solve_single(std::vector<ImpactBody>& bodies, SolverContact& contact) const;
-    void solve_together(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
-                        double time);
     void solve_many(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
                     double time);
     void add_joint(const SolverContact& contact, std::size_t index);

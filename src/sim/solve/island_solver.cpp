@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "sim/solve/canonical_order.h"
 #include "sim/solve/contact_joint.h"
 #include "sim/solve/contact_sweeps.h"
 #include "sim/solve/ode_bodies.h"
@@ -109,23 +108,6 @@ bool IslandSolver::solve_with_ode(std::vector<ImpactBody>& bodies,
 void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
                         std::vector<Vec3>& pushes, const Vec3& gravity, double seconds) {
     CAROM_CHECK(pushes.size(), ==, contacts.size());
-    const CanonicalOrder order(bodies, contacts);
-    if (order.is_given()) {
-        step_in_order(bodies, contacts, pushes, gravity, seconds);
-        return;
-    }
-    std::vector<ImpactBody> sorted_bodies = order.sorted(bodies);
-    std::vector<SolverContact> sorted_contacts = order.sorted(contacts);
-    std::vector<Vec3> sorted_pushes = order.sorted(pushes);
-    step_in_order(sorted_bodies, sorted_contacts, sorted_pushes, gravity, seconds);
-    order.put_back(sorted_bodies, bodies);
-    order.put_back(sorted_contacts, contacts);
-    order.put_back(sorted_pushes, pushes);
-}
-
-void IslandSolver::step_in_order(std::vector<ImpactBody>& bodies,
-                                 std::vector<SolverContact>& contacts, std::vector<Vec3>& pushes,
-                                 const Vec3& gravity, double seconds) {
     world_->feedback.resize(contacts.size());
     world_->pushes.resize(contacts.size());
     world_->target.resize(contacts.size());

@@ -30,15 +30,13 @@ class IslandSolver {
     /// index the bodies, normal, arms, depth (at the start of the step) and friction are used;
     /// slips, speeds and impulses are filled. `pushes`, one per contact, are the impulses of the
     /// step before on its ball [N s], zero for a new contact; they are replaced by those of this
-    /// step. The order of bodies and contacts does not matter. Never fails: where ODE's exact solver gives up, or would take too long, sweeps take
+    /// step. Never fails: where ODE's exact solver gives up, or would take too long, sweeps take
     /// the step.
     void step(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
               std::vector<Vec3>& pushes, const Vec3& gravity, double seconds);
 
   private:
     struct World;
-    void step_in_order(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts,
-                       std::vector<Vec3>& pushes, const Vec3& gravity, double seconds);
     void add_joint(const SolverContact& contact, std::size_t index);
     void follow_slip(const SolverContact& contact, const ImpactBody& body, const Vec3& fall,
                      std::size_t index);
