@@ -140,7 +140,6 @@ Verdict judge_transform(const Trial& trial, Watch& watch) {
     for (int i = 0; i < kPerturbed; ++i) {
         const Scene near = perturbed(base->scene, far, trial.seed + static_cast<unsigned>(i));
         std::optional<Played> played = play(scene_text(near), "last digits changed", watch);
-        if (getenv("DBG")) { FILE* f = fopen(("/work/t/near" + std::to_string(trial.transform) + "_" + std::to_string(i) + ".yaml").c_str(), "w"); fputs(scene_text(near).c_str(), f); fclose(f); }
         if (!played) return v;
         spread.push_back(std::move(played->result.motion));
     }
