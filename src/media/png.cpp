@@ -121,17 +121,6 @@ bool is_opaque(const Image& image) {
     return true;
 }
 
-/// One row of premultiplied BGRA as straight RGBA.
-void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width) {
-    for (int x = 0; x < width; ++x, bgra += 4, rgba += 4) {
-        const unsigned a = bgra[3];
-        rgba[0] = straighten(bgra[2], a);
-        rgba[1] = straighten(bgra[1], a);
-        rgba[2] = straighten(bgra[0], a);
-        rgba[3] = bgra[3];
-    }
-}
-
 /// What stands before the pixels: head, colour space, physical size, texts.
 void write_head(png_structp png, png_infop info, const Image& image, bool opaque,
                 const PngNotes& notes, const std::string& texts) {

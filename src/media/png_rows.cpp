@@ -59,17 +59,6 @@ void filter_opaque_row(const std::uint8_t* bgra, std::uint8_t* difference, std::
     }
 }
 
-/// One row of premultiplied BGRA as straight RGBA.
-void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width) {
-    for (int x = 0; x < width; ++x, bgra += 4, rgba += 4) {
-        const unsigned a = bgra[3];
-        rgba[0] = straighten(bgra[2], a);
-        rgba[1] = straighten(bgra[1], a);
-        rgba[2] = straighten(bgra[0], a);
-        rgba[3] = bgra[3];
-    }
-}
-
 void filter_row(const std::uint8_t* rgba, std::uint8_t* out, int width) {
     for (int i = 0; i < 4; ++i) out[i] = rgba[i];
     for (int i = 4; i < 4 * width; ++i) out[i] = static_cast<std::uint8_t>(rgba[i] - rgba[i - 4]);

@@ -11,6 +11,16 @@ void prepare(const Image& like, Image& image) {
 
 }  // namespace
 
+void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width) {
+    for (int x = 0; x < width; ++x, bgra += 4, rgba += 4) {
+        const unsigned a = bgra[3];
+        rgba[0] = straighten(bgra[2], a);
+        rgba[1] = straighten(bgra[1], a);
+        rgba[2] = straighten(bgra[0], a);
+        rgba[3] = bgra[3];
+    }
+}
+
 void straighten_image(const Image& premultiplied, Image& straight) {
     prepare(premultiplied, straight);
     for (std::size_t i = 0; i < premultiplied.bgra.size(); i += 4) {

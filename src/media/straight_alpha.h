@@ -46,6 +46,9 @@ class StraightAlpha {
     std::vector<Level> levels_;  ///< blocks of 2, 4, 8 ... pixels, up to one for all
 };
 
+/// One row of premultiplied BGRA as straight RGBA, `width` pixels each.
+void straighten_row(const std::uint8_t* bgra, std::uint8_t* rgba, int width);
+
 /// Straight alpha without touching transparent pixels, for formats without loss.
 void straighten_image(const Image& premultiplied, Image& straight);
 

@@ -1,4 +1,5 @@
-// Inelastic collapse in free space: the rule, and heaps of many balls that nothing presses together.
+// Inelastic collapse in free space: the rule, and heaps of many balls that nothing presses
+// together.
 #include "sim/group/collapse.h"
 
 #include <gtest/gtest.h>
@@ -83,9 +84,9 @@ Kept kept(const Scene& scene, const Motion& motion, double friction) {
     const double end = motion.duration;
     if (friction == 0)
         for (std::size_t k = 0; k < p.size(); ++k)
-            result.momentum = std::max(
-                result.momentum,
-                (scene.balls[k].mass * motion.balls[k].at(end).velocity - p[k]).norm());
+            result.momentum =
+                std::max(result.momentum,
+                         (scene.balls[k].mass * motion.balls[k].at(end).velocity - p[k]).norm());
     const double start = kinetic_energy(scene, motion, 0);
     double least = start;
     for (int i = 0; i <= 500; ++i) {
@@ -97,9 +98,9 @@ Kept kept(const Scene& scene, const Motion& motion, double friction) {
         for (std::size_t a = 0; a < scene.balls.size(); ++a)
             for (std::size_t b = 0; b < a; ++b)
                 result.overlap = std::max(
-                    result.overlap, 2 * kRadius - (motion.balls[a].at(t).position -
-                                                   motion.balls[b].at(t).position)
-                                                      .norm());
+                    result.overlap,
+                    2 * kRadius -
+                        (motion.balls[a].at(t).position - motion.balls[b].at(t).position).norm());
     }
     return result;
 }
@@ -115,11 +116,11 @@ TEST(Collapse, ImpactsStayFewLongAfterIt) {
         const SimulationResult result = run(scene, seconds);
         const double balls = static_cast<double>(scene.balls.size());
         const Kept k = kept(scene, result.motion, friction);
-        std::printf("e %g, mu %g, %g s: %.0f rows a ball, %lld impacts on heaps; momenta within "
-                    "%.2g, energy rises by %.2g, overlap %.2g m\n",
-                    e, friction, seconds, static_cast<double>(result.report.impacts) / balls,
-                    static_cast<long long>(result.report.collapses), k.momentum, k.energy_rise,
-                    k.overlap);
+        std::printf(
+            "e %g, mu %g, %g s: %.0f rows a ball, %lld impacts on heaps; momenta within "
+            "%.2g, energy rises by %.2g, overlap %.2g m\n",
+            e, friction, seconds, static_cast<double>(result.report.impacts) / balls,
+            static_cast<long long>(result.report.collapses), k.momentum, k.energy_rise, k.overlap);
         EXPECT_GT(result.report.collapses, 0);
         EXPECT_TRUE(result.report.effects.at("collapse").on);
         EXPECT_LE(static_cast<double>(result.report.impacts), 800 * balls);

@@ -50,12 +50,13 @@ ImpactCluster::Limits Impacts::gather(const Contact& seed, double now) {
 }
 
 void Impacts::note_series(double now) {
-    for (const int ball : cluster_.balls()) {
-        double fastest = 0;
-        for (const Contact& c : impacts_)
-            if (c.ball == ball || (!c.other.is_surface && c.other.index == ball))
-                fastest = std::max(fastest, c.approach_speed);
-        if (fastest > 0) collapse_.note(ball, world_.ball(ball).radius, fastest, now);
+    const auto note = [&](int ball, double approach) {
+        collapse_.note(ball, world_.ball(ball).radius, approach, now);
+    };
+    for (const Contact& c : impacts_) {
+        if (!(c.approach_speed > 0)) continue;
+        note(c.ball, c.approach_speed);
+        if (!c.other.is_surface) note(c.other.index, c.approach_speed);
     }
 }
 

@@ -24,8 +24,7 @@ class Impacts {
           aftermath_(aftermath),
           cluster_(world),
           collapse_(world.balls.size()),
-          in_free_space_(world.scene.simulation.gravity.isZero(0) ||
-                         world.scene.surfaces.empty()),
+          in_free_space_(world.scene.simulation.gravity.isZero(0) || world.scene.surfaces.empty()),
           seeds_(world.balls.size()) {}
 
     void begin_instant();

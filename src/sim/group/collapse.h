@@ -1,6 +1,7 @@
 // Inelastic collapse of balls that nothing presses together: in free space a ball between others
-// may meet them ever more often and ever more slowly, infinitely often in a finite time (S. McNamara
-// and W. R. Young, "Inelastic collapse and clumping in a one-dimensional granular medium", 1992).
+// may meet them ever more often and ever more slowly, infinitely often in a finite time (S.
+// McNamara and W. R. Young, "Inelastic collapse and clumping in a one-dimensional granular medium",
+// 1992).
 #pragma once
 
 #include <cstddef>
@@ -29,20 +30,23 @@ class CollapseRule {
     /// It met something while nothing else was near.
     void leave_heap(int ball) { series_[static_cast<std::size_t>(ball)] = {}; }
 
-    /// Of one instant, however many rounds it took: the ball's fastest approach [m/s].
+    /// An impact of a ball, m/s > 0. Those of one instant count once, however many they are.
     void note(int ball, double radius, double approach, double now) {
         Series& s = series_[static_cast<std::size_t>(ball)];
         if (s.in_heap) return;
-        if (approach >= s.fastest || now > s.until)
-            s = {approach, now + kWindow * radius / approach, 0, false};
-        else
+        if (approach >= s.fastest || now > s.until) {
+            s = {approach, now + kWindow * radius / approach, now, 0, false};
+        } else if (now > s.last) {
+            s.last = now;
             s.in_heap = ++s.impacts >= kImpacts;
+        }
     }
 
   private:
     struct Series {
         double fastest = 0;  ///< approach, m/s
         double until = 0;    ///< s
+        double last = 0;     ///< s, the instant that was counted last
         int impacts = 0;     ///< since the fastest one
         bool in_heap = false;
     };

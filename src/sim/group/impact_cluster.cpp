@@ -152,8 +152,8 @@ bool ImpactCluster::meets(const Contact& contact, double size) const {
 void ImpactCluster::touch_surfaces(int ball) {
     const Vec3 x = bodies_[index_of(ball)].position;
     const double radius = world_.ball(ball).radius;
-    const double far = kFar * (radius + x.cwiseAbs().maxCoeff()) + world_.place_rounding +
-                       near_ * radius;
+    const double far =
+        kFar * (radius + x.cwiseAbs().maxCoeff()) + world_.place_rounding + near_ * radius;
     world_.for_each_surface_near(ball, x, radius + far, [&](int s) {
         if (is_known(ball, {true, s})) return;
         // Far surfaces are the common case, as far balls are below.
@@ -321,9 +321,8 @@ void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
     for (std::size_t round = 0;; ++round) {
         const double largest = *std::max_element(speeds_.begin(), speeds_.end());
         if (round == 0) first_approach_ = largest;
-        const double enough =
-            std::max({std::max(kResolved, limits.slow) * first_approach_,
-                      kRounding * largest_speed_, limits.enough});
+        const double enough = std::max({std::max(kResolved, limits.slow) * first_approach_,
+                                        kRounding * largest_speed_, limits.enough});
         if (!(largest > enough)) break;
         const bool last = round > rounds + contacts_.size();
         if (last && limits.enough > 0) {
@@ -341,14 +340,8 @@ void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
 
 /// All contacts at once, none of which rebounds.
 void ImpactCluster::press_rest(ImpactSolver& solver, std::vector<Contact>& impacts) {
-    find_speeds();
     choose(-std::numeric_limits<double>::infinity());
-    for (SolverContact& c : solver_contacts_) c.restitution = 0;
-    solver.solve(solver_bodies_, solver_contacts_, time_);
-    for (std::size_t k = 0; k < here_.size(); ++k)
-        bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
-    for (std::size_t k = 0; k < chosen_.size(); ++k)
-        if (solver_contacts_[k].impulse > 0) note_impulse(chosen_[k], solver_contacts_[k], impacts);
+    solve(solver, true, std::numeric_limits<double>::infinity(), impacts);
 }
 
 void ImpactCluster::contacts_of(int ball, std::vector<Contact>& result) const {

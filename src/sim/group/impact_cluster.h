@@ -95,7 +95,8 @@ class ImpactCluster {
     void update_speeds();
     void choose(double slowest);
     void solve(ImpactSolver& solver, bool inelastic, double enough, std::vector<Contact>& impacts);
-    void note_impulse(std::size_t contact, const SolverContact& solved, std::vector<Contact>& impacts);
+    void note_impulse(std::size_t contact, const SolverContact& solved,
+                      std::vector<Contact>& impacts);
     void press_rest(ImpactSolver& solver, std::vector<Contact>& impacts);
     void resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts, const Limits& limits);
     void end_impacts(std::vector<Contact>& impacts);

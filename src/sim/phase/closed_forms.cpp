@@ -28,12 +28,8 @@ double seconds_on(const SphereShape&, const Piece&, double, const Vec3&, double)
 double seconds_on(const CapsuleShape&, const Piece&, double, const Vec3&, double) {
     return kInfinity;
 }
-double seconds_on(const BowlShape&, const Piece&, double, const Vec3&, double) {
-    return kInfinity;
-}
-double seconds_on(const PipeShape&, const Piece&, double, const Vec3&, double) {
-    return kInfinity;
-}
+double seconds_on(const BowlShape&, const Piece&, double, const Vec3&, double) { return kInfinity; }
+double seconds_on(const PipeShape&, const Piece&, double, const Vec3&, double) { return kInfinity; }
 double seconds_on(const RingShape&, const Piece&, double, const Vec3&, double) { return kInfinity; }
 double seconds_on(const CylinderShape& cylinder, const Piece& piece, double radius, const Vec3&,
                   double horizon) {

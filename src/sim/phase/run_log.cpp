@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/record/event_log.h"
+
 namespace carom {
 
 namespace {
@@ -12,14 +14,7 @@ constexpr double kSlides = 1 - 1e-9;
 }  // namespace
 
 void RunLog::add(EventKind kind, const Contact& contact, double now) {
-    Event e;
-    e.time = now;
-    e.ball = contact.ball;
-    e.other = contact.other;
-    e.kind = kind;
-    e.point = contact.point;
-    e.normal = contact.normal;
-    events_.push_back(e);
+    events_.push_back(event_at(contact, kind, now));
 }
 
 void RunLog::add_of_held(EventKind kind, int ball, double now) {

@@ -57,14 +57,7 @@ EventKind EventLog::kind_of(const Contact& contact, const std::vector<Velocities
 }
 
 void EventLog::add_row(double time, EventKind kind, const Contact& contact) {
-    Event event;
-    event.time = time;
-    event.ball = contact.ball;
-    event.other = contact.other;
-    event.kind = kind;
-    event.point = contact.point;
-    event.normal = contact.normal;
-    events_.push_back(event);
+    events_.push_back(event_at(contact, kind, time));
 }
 
 void EventLog::add_impact(double time, const Contact& contact) {

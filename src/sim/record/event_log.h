@@ -11,6 +11,18 @@
 
 namespace carom {
 
+/// An event of two that touch, at their contact; speeds and impulses are those of an impact alone.
+inline Event event_at(const Contact& contact, EventKind kind, double time) {
+    Event e;
+    e.time = time;
+    e.ball = contact.ball;
+    e.other = contact.other;
+    e.kind = kind;
+    e.point = contact.point;
+    e.normal = contact.normal;
+    return e;
+}
+
 /// When two bodies count as moving, slipping, or staying together. The method's own resolution:
 /// within a step of h seconds gravity alone changes a speed by g h.
 struct EventRules {

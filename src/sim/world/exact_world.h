@@ -40,8 +40,8 @@ class ExactWorld : public ExactBalls {
     /// the scene's own places are all that is known.
     double touch_tolerance(int i, const Partner& partner, double t, const Vec3& a, const Vec3& b,
                            double size) const {
-        const bool as_placed = is_as_placed(i, t) &&
-                               (partner.is_surface || is_as_placed(partner.index, t));
+        const bool as_placed =
+            is_as_placed(i, t) && (partner.is_surface || is_as_placed(partner.index, t));
         return (as_placed ? place_rounding : 0) + motion_tolerance(a, b, size);
     }
     /// The contact of ball i with a partner at t, as geometry has it; of two balls, the scene's
