@@ -103,8 +103,8 @@ void compare_folders(const CompareOptions& options, const Interrupt& interrupt,
             comparison.add_missing(name);
             continue;
         }
-        comparison.add(name, read_png((fs::path(options.a) / name).string()),
-                       read_png((fs::path(options.b) / name).string()));
+        comparison.add(name, read_any_png((fs::path(options.a) / name).string()),
+                       read_any_png((fs::path(options.b) / name).string()));
     }
 }
 
@@ -174,7 +174,7 @@ int compare(const CompareOptions& options, const Interrupt& interrupt) {
                           kind == Kind::kFilm ? "frames" : "pictures");
     switch (kind) {
         case Kind::kPicture:
-            comparison.add(options.a, read_png(options.a), read_png(options.b));
+            comparison.add(options.a, read_any_png(options.a), read_any_png(options.b));
             break;
         case Kind::kFolder:
             compare_folders(options, interrupt, comparison);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,33 +12,67 @@ namespace carom {
 
 namespace {
 
-bool worse(const ImageDifference& a, const ImageDifference& b) {
+using Json = nlohmann::ordered_json;
+
+bool worse(const ImageMeasures& a, const ImageMeasures& b) {
     if (a.same_size != b.same_size) return !a.same_size;
     if (a.largest != b.largest) return a.largest > b.largest;
     return a.differing > b.differing;
 }
 
-std::string difference_text(const ImageDifference& d) {
-    if (!d.same_size) return "the sizes differ";
-    return fmt::format(
-        "largest difference {} of 255, {:.4f} % of pixels differ, luma PSNR {:.2f} dB", d.largest,
-        100 * d.differing_fraction(), d.psnr_luma_db);
-}
+/// JSON has no infinity.
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
+
+std::string measures_text(const ImageMeasures& m) {
+    if (!m.same_size) return "the sizes differ";
+    if (m.identical()) return "identical";
+    return fmt::format(
+        "largest difference {:.6g} of 255, {} of {} pixels ({:.4f} %) differ, PSNR {:.2f} dB, "
+        "SSIM {:.6f}",
+        m.largest, m.differing, m.pixels, 100 * m.differing_fraction(), m.psnr_db, m.ssim);
+}
+
+void put_measures(Json& json, const ImageMeasures& m) {
+    json["same_size"] = m.same_size;
+    json["largest"] = m.largest;
+    json["differing_pixels"] = m.differing;
+    json["pixels"] = m.pixels;
+    json["differing_fraction"] = m.differing_fraction();
+    json["psnr_db"] = finite_or_null(m.psnr_db);
+    json["psnr_luma_db"] = finite_or_null(m.psnr_luma_db);
+    json["ssim"] = m.ssim;
+}
+
+std::string missed_text(const ImageTolerance& limits, const ImageMeasures& m) {
+    if (!m.same_size) return "the sizes differ";
+    std::string text;
+    if (m.largest > limits.channel)
+        text = fmt::format("off by {:.6g}, {:.6g} more than the {} of 255 allowed", m.largest,
+                           m.largest - limits.channel, limits.channel);
+    if (m.differing_fraction() > limits.differing) {
+        const auto allowed =
+            static_cast<std::int64_t>(std::floor(limits.differing * static_cast<double>(m.pixels)));
+        text += fmt::format("{}{} pixels differ, {} more than the {} ({:.6g} %) allowed",
+                            text.empty() ? "" : "; ", m.differing, m.differing - allowed, allowed,
+                            100 * limits.differing);
+    }
+    return text;
+}
 
 void Comparison::fail(const std::string& name, const std::string& why) {
     if (failed_.empty()) first_ = fmt::format("{}: {}", readable(name), why);
     if (failed_.empty() || failed_.back() != name) failed_.push_back(name);
 }
 
-void Comparison::add(const std::string& name, const Image& a, const Image& b) {
-    const ImageDifference d = compare_images(a, b);
-    ++compared_;
-    if (!tolerance_.accepts(d)) fail(name, difference_text(d));
-    if (worst_ && !worse(d, worst_->difference)) return;
-    worst_ = Found{name, d};
-    picture_ = d.same_size ? difference_image(a, b) : Image();
+void Comparison::add(const std::string& name, const AnyImage& a, const AnyImage& b) {
+    const ImageMeasures m = measure_difference(a, b);
+    pairs_.push_back({name, m});
+    if (!within(tolerance_, m)) fail(name, measures_text(m));
+    if (worst_ && !worse(m, pairs_[*worst_].measures)) return;
+    worst_ = pairs_.size() - 1;
+    picture_ = m.same_size ? difference_image(flattened(a), flattened(b)) : Image();
 }
 
 void Comparison::add_other_time(const std::string& name, double a_s, double b_s) {
@@ -50,38 +85,57 @@ void Comparison::add_missing(const std::string& name) {
     fail(name, "only in one");
 }
 
+const Comparison::Pair* Comparison::first_not_identical() const {
+    const auto found = std::find_if(pairs_.begin(), pairs_.end(),
+                                    [](const Pair& pair) { return !pair.measures.identical(); });
+    return found == pairs_.end() ? nullptr : &*found;
+}
+
 std::string Comparison::text() const {
-    if (same())
-        return fmt::format("same: {} {} compared, worst {}: {}\n", compared_, what_,
-                           readable(worst_->name), difference_text(worst_->difference));
+    const std::string limits = fmt::format("limits: {} of 255, {:.6g} % of the pixels",
+                                           tolerance_.channel, 100 * tolerance_.differing);
+    const auto line = [](const char* which, const Pair& pair) {
+        return fmt::format("{} {}: {}\n", which, readable(pair.name), measures_text(pair.measures));
+    };
+    if (same()) {
+        const Pair* first = first_not_identical();
+        if (first == nullptr)
+            return fmt::format("same: {} {} compared, all identical\n", compared(), what_);
+        std::string text = fmt::format("same: {} {} compared ({})\n", compared(), what_, limits);
+        if (compared() > 1) text += line("first not identical", *first);
+        return text + line("worst", pairs_[*worst_]);
+    }
     std::string counts =
-        fmt::format("{} of {} {} differ", failed_.size(), compared_ + missing_, what_);
+        fmt::format("{} of {} {} differ", failed_.size(), compared() + missing_, what_);
     if (other_times_ > 0) counts += fmt::format(", {} shown at other times", other_times_);
     if (missing_ > 0) counts += fmt::format(", {} only in one", missing_);
-    std::string text = fmt::format("different: {}\nfirst {}\n", counts, first_);
-    if (worst_)
-        text += fmt::format("worst {}: {}\n", readable(worst_->name),
-                            difference_text(worst_->difference));
+    std::string text = fmt::format("different: {} ({})\nfirst {}\n", counts, limits, first_);
+    if (worst_) text += line("worst", pairs_[*worst_]);
     return text;
 }
 
-nlohmann::ordered_json Comparison::json() const {
-    const ImageDifference worst = worst_ ? worst_->difference : ImageDifference{};
-    nlohmann::ordered_json json = {{"same", same()},
-                                   {"compared", compared_},
-                                   {"differing", failed_.size()},
-                                   {"only_in_one", missing_},
-                                   {"at_other_times", other_times_},
-                                   {"first", first_},
-                                   {"worst", worst_ ? worst_->name : ""},
-                                   {"same_size", worst.same_size},
-                                   {"largest", worst.largest},
-                                   {"differing_fraction", worst.differing_fraction()},
-                                   {"differs", failed_}};
-    // JSON has no infinity: identical pictures have no PSNR.
-    json["psnr_luma_db"] = std::isfinite(worst.psnr_luma_db)
-                               ? nlohmann::ordered_json(worst.psnr_luma_db)
-                               : nlohmann::ordered_json(nullptr);
+Json Comparison::json() const {
+    const Pair worst = worst_ ? pairs_[*worst_] : Pair{};
+    const Pair* first = first_not_identical();
+    Json json = {
+        {"same", same()},
+        {"limits", {{"tolerance", tolerance_.channel}, {"max_differing", tolerance_.differing}}},
+        {"compared", compared()},
+        {"differing", failed_.size()},
+        {"only_in_one", missing_},
+        {"at_other_times", other_times_},
+        {"first", first_},
+        {"first_differing", failed_.empty() ? Json(nullptr) : Json(failed_.front())},
+        {"first_not_identical", first == nullptr ? Json(nullptr) : Json(first->name)},
+        {"worst", worst.name}};
+    put_measures(json, worst.measures);
+    json["differs"] = failed_;
+    json["pairs"] = Json::array();
+    for (const Pair& pair : pairs_) {
+        Json entry = {{"name", pair.name}, {"same", within(tolerance_, pair.measures)}};
+        put_measures(entry, pair.measures);
+        json["pairs"].push_back(std::move(entry));
+    }
     return json;
 }
 

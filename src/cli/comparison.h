@@ -1,4 +1,4 @@
-// What `carom compare` has found so far: counts, the first and the worst pair.
+// What `carom compare` has found so far: counts, the first and the worst pair, measures of each.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
+#include "core/image_measures.h"
 
 namespace carom {
+
+/// "largest difference 5 of 255, 20 of 1000 pixels (2 %) differ, PSNR 31.2 dB, SSIM 0.98".
+std::string measures_text(const ImageMeasures& m);
+
+/// The same as members of `json`. Identical pictures have no PSNR: null.
+void put_measures(nlohmann::ordered_json& json, const ImageMeasures& m);
+
+/// "more than 2 of 255": the limits that are missed and by how much; empty where none is.
+std::string missed_text(const ImageTolerance& limits, const ImageMeasures& m);
 
 class Comparison {
   public:
@@ -17,13 +26,13 @@ class Comparison {
     Comparison(const ImageTolerance& tolerance, std::string what)
         : tolerance_(tolerance), what_(std::move(what)) {}
 
-    void add(const std::string& name, const Image& a, const Image& b);
+    void add(const std::string& name, const AnyImage& a, const AnyImage& b);
     /// A frame that the films show at different times, in seconds after their first ones.
     void add_other_time(const std::string& name, double a_s, double b_s);
     void add_missing(const std::string& name);  ///< in one of them only
 
     bool same() const { return failed_.empty(); }
-    std::int64_t compared() const { return compared_; }
+    std::int64_t compared() const { return static_cast<std::int64_t>(pairs_.size()); }
     /// The difference of the worst pair of equal size; empty without one.
     const Image& worst_picture() const { return picture_; }
 
@@ -32,21 +41,22 @@ class Comparison {
     nlohmann::ordered_json json() const;
 
   private:
-    /// One pair, and what is wrong with it.
-    struct Found {
+    /// One pair, and how far it is apart.
+    struct Pair {
         std::string name;
-        ImageDifference difference;
+        ImageMeasures measures;
     };
     void fail(const std::string& name, const std::string& why);
+    const Pair* first_not_identical() const;
 
     ImageTolerance tolerance_;
     std::string what_;
-    std::int64_t compared_ = 0;
     std::int64_t missing_ = 0;
     std::int64_t other_times_ = 0;
-    std::vector<std::string> failed_;  ///< names, each once, in order
-    std::string first_;                ///< the first failure, with its reason
-    std::optional<Found> worst_;       ///< of all that were compared
+    std::vector<Pair> pairs_;           ///< all that were compared, in order
+    std::vector<std::string> failed_;   ///< names, each once, in order
+    std::string first_;                 ///< the first failure, with its reason
+    std::optional<std::size_t> worst_;  ///< of pairs_
     Image picture_;
 };
 

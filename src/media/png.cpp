@@ -1,23 +1,16 @@
 #include "media/png.h"
 
-// libpng wants setjmp's header first.
-#include <csetjmp>
-//
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "core/check.h"
 #include "core/failure.h"
 #include "media/film_text.h"
+#include "media/png_guard.h"
 #include "media/png_rows.h"
 #include "media/straight_alpha.h"
 
@@ -25,22 +18,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::int64_t kMostPixels = 100'000'000;
-
-/// libpng's last words; plain data, because longjmp runs no destructors.
-struct PngText {
-    std::array<char, 256> text = {};
-};
-
 extern "C" {
-void carom_png_error(png_structp png, png_const_charp message) {
-    auto* text = static_cast<PngText*>(png_get_error_ptr(png));
-    std::snprintf(text->text.data(), text->text.size(), "%s", message);
-    png_longjmp(png, 1);
-}
-
-void carom_png_warning(png_structp, png_const_charp) {}  // what can be read is read
-
 void carom_png_append(png_structp png, png_bytep data, png_size_t size) {
     bool full = false;
     try {
@@ -51,15 +29,6 @@ void carom_png_append(png_structp png, png_bytep data, png_size_t size) {
     }
     if (full) png_error(png, "out of memory");
 }
-}
-
-/// Runs `calls`, which may be left by longjmp at any call of libpng: it must own nothing.
-/// False: libpng failed, the text says why.
-template <class Calls>
-bool guarded(png_structp png, const Calls& calls) {
-    if (setjmp(png_jmpbuf(png)) != 0) return false;
-    calls();
-    return true;
 }
 
 /// libpng's writer, and the bytes that it has made.
@@ -86,31 +55,6 @@ class PngWriter {
   private:
     PngText text_;
     std::string bytes_;
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-};
-
-class PngReader {
-  public:
-    PngReader() {
-        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &text_, carom_png_error,
-                                      carom_png_warning);
-        if (png_ != nullptr) info_ = png_create_info_struct(png_);
-        if (info_ == nullptr) {
-            png_destroy_read_struct(&png_, nullptr, nullptr);
-            throw std::bad_alloc();
-        }
-    }
-    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    PngReader(const PngReader&) = delete;
-    PngReader& operator=(const PngReader&) = delete;
-
-    png_structp png() { return png_; }
-    png_infop info() { return info_; }
-    const char* text() const { return text_.text.data(); }
-
-  private:
-    PngText text_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
 };
@@ -212,26 +156,6 @@ std::string encode_fast(const Image& image, PngRows& rows, const PngNotes& notes
     return std::move(writer.bytes());
 }
 
-/// A file that closes itself.
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using InputFile = std::unique_ptr<std::FILE, CloseFile>;
-
-[[noreturn]] void fail_reading(const std::string& path, const std::string& why) {
-    throw Failure(FailureKind::kInput, fmt::format("cannot read PNG '{}': {}", path, why));
-}
-
-/// Asks libpng for 8-bit straight BGRA, whatever the file holds.
-void set_reading_transforms(png_structp png) {
-    png_set_expand(png);  // palette, fewer than 8 bits, a transparent colour
-    png_set_scale_16(png);
-    png_set_gray_to_rgb(png);
-    png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
-    png_set_bgr(png);
-    png_set_interlace_handling(png);
-}
-
 }  // namespace
 
 std::string encode_png(const Image& image, PngEffort effort, const PngNotes& notes) {
@@ -252,43 +176,6 @@ std::string PngEncoder::encode(const Image& image, const PngNotes& notes) {
 void write_png(const std::string& path, const Image& image, PngEffort effort, Durability durability,
                Existing existing, const PngNotes& notes) {
     write_text_file(path, encode_png(image, effort, notes), durability, existing);
-}
-
-Image read_png(const std::string& path) {
-    const InputFile file(std::fopen(path.c_str(), "rbe"));
-    if (!file) fail_reading(path, std::strerror(errno));
-    PngReader reader;
-    png_structp png = reader.png();
-    png_infop info = reader.info();
-    std::FILE* raw_file = file.get();
-
-    if (!guarded(png, [&] {
-            png_init_io(png, raw_file);
-            png_read_info(png, info);
-        }))
-        fail_reading(path, reader.text());
-    const auto width = static_cast<std::int64_t>(png_get_image_width(png, info));
-    const auto height = static_cast<std::int64_t>(png_get_image_height(png, info));
-    if (width * height > kMostPixels)
-        fail_reading(path, fmt::format("{}x{} is more than 100 megapixels", width, height));
-
-    Image image(static_cast<int>(width), static_cast<int>(height));
-    std::vector<png_bytep> rows;
-    for (int y = 0; y < image.height_px; ++y) rows.push_back(image.row(y));
-    if (!guarded(png, [&] {
-            set_reading_transforms(png);
-            png_read_update_info(png, info);
-            if (png_get_rowbytes(png, info) != image.stride_bytes())
-                png_error(png, "the samples cannot be brought to 8-bit RGBA");
-            png_read_image(png, rows.data());
-            png_read_end(png, nullptr);
-        }))
-        fail_reading(path, reader.text());
-
-    for (std::size_t i = 0; i < image.bgra.size(); i += 4)
-        for (std::size_t c = i; c < i + 3; ++c)
-            image.bgra[c] = premultiply(image.bgra[c], image.bgra[i + 3]);
-    return image;
 }
 
 }  // namespace carom

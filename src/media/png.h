@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/deep_image.h"
 #include "core/image.h"
 #include "media/output_file.h"
 
@@ -45,9 +46,15 @@ class PngEncoder {
     std::unique_ptr<class PngRows> rows_;
 };
 
-/// Any PNG (grey, palette, 16 bits, transparent, interlaced) as 8-bit premultiplied BGRA. Samples
-/// are taken as sRGB, whatever gamma the file names. Throws Failure(kInput) with libpng's text when
-/// the file is missing, damaged, no PNG, or larger than 100 megapixels.
+/// Any PNG (grey, palette, 1 to 16 bits, transparent, interlaced) in the depth that it has: 8 bits
+/// for up to 8, else 16; premultiplied. Samples are taken as sRGB, unless a gAMA chunk without an
+/// sRGB or iCCP chunk beside it says otherwise by more than 5 %: then v becomes the sRGB value of
+/// the light v^(1 / gAMA) (PNG, third edition, 12.13), rounded. Colour profiles and chromaticities
+/// are not applied. Throws Failure(kInput) with libpng's text when the file is missing, damaged, no
+/// PNG, or larger than 100 megapixels.
+AnyImage read_any_png(const std::string& path);
+
+/// The same in 8 bits, rounded to the nearest.
 Image read_png(const std::string& path);
 
 }  // namespace carom

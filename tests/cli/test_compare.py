@@ -1,21 +1,11 @@
 """carom compare: by what files are, not by their names; every option counts; a summary, not a list."""
 
 import json
-import struct
 import subprocess
 import unittest
-import zlib
 
+from png_making import png
 from program import ProgramTest, run
-
-
-def png(width, height, grey_at):
-    """A grey PNG made without carom: grey_at(x, y) gives each pixel's value."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    rows = b"".join(b"\0" + bytes(grey_at(x, y) for x in range(width)) for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 class CompareTest(ProgramTest):
