@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/measures_text.h"
 #include "core/readable.h"
+#include "golden/measures_json.h"
 
 namespace carom {
 
@@ -20,46 +21,7 @@ bool worse(const ImageMeasures& a, const ImageMeasures& b) {
     return a.differing > b.differing;
 }
 
-/// JSON has no infinity.
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 }  // namespace
-
-std::string measures_text(const ImageMeasures& m) {
-    if (!m.same_size) return "the sizes differ";
-    if (m.identical()) return "identical";
-    return fmt::format(
-        "largest difference {:.6g} of 255, {} of {} pixels ({:.4f} %) differ, PSNR {:.2f} dB, "
-        "SSIM {:.6f}",
-        m.largest, m.differing, m.pixels, 100 * m.differing_fraction(), m.psnr_db, m.ssim);
-}
-
-void put_measures(Json& json, const ImageMeasures& m) {
-    json["same_size"] = m.same_size;
-    json["largest"] = m.largest;
-    json["differing_pixels"] = m.differing;
-    json["pixels"] = m.pixels;
-    json["differing_fraction"] = m.differing_fraction();
-    json["psnr_db"] = finite_or_null(m.psnr_db);
-    json["psnr_luma_db"] = finite_or_null(m.psnr_luma_db);
-    json["ssim"] = m.ssim;
-}
-
-std::string missed_text(const ImageTolerance& limits, const ImageMeasures& m) {
-    if (!m.same_size) return "the sizes differ";
-    std::string text;
-    if (m.largest > limits.channel)
-        text = fmt::format("off by {:.6g}, {:.6g} more than the {} of 255 allowed", m.largest,
-                           m.largest - limits.channel, limits.channel);
-    if (m.differing_fraction() > limits.differing) {
-        const auto allowed =
-            static_cast<std::int64_t>(std::floor(limits.differing * static_cast<double>(m.pixels)));
-        text += fmt::format("{}{} pixels differ, {} more than the {} ({:.6g} %) allowed",
-                            text.empty() ? "" : "; ", m.differing, m.differing - allowed, allowed,
-                            100 * limits.differing);
-    }
-    return text;
-}
 
 void Comparison::fail(const std::string& name, const std::string& why) {
     if (failed_.empty()) first_ = fmt::format("{}: {}", readable(name), why);
@@ -92,8 +54,7 @@ const Comparison::Pair* Comparison::first_not_identical() const {
 }
 
 std::string Comparison::text() const {
-    const std::string limits = fmt::format("limits: {} of 255, {:.6g} % of the pixels",
-                                           tolerance_.channel, 100 * tolerance_.differing);
+    const std::string limits = "limits: " + limits_text(tolerance_);
     const auto line = [](const char* which, const Pair& pair) {
         return fmt::format("{} {}: {}\n", which, readable(pair.name), measures_text(pair.measures));
     };
@@ -117,17 +78,16 @@ std::string Comparison::text() const {
 Json Comparison::json() const {
     const Pair worst = worst_ ? pairs_[*worst_] : Pair{};
     const Pair* first = first_not_identical();
-    Json json = {
-        {"same", same()},
-        {"limits", {{"tolerance", tolerance_.channel}, {"max_differing", tolerance_.differing}}},
-        {"compared", compared()},
-        {"differing", failed_.size()},
-        {"only_in_one", missing_},
-        {"at_other_times", other_times_},
-        {"first", first_},
-        {"first_differing", failed_.empty() ? Json(nullptr) : Json(failed_.front())},
-        {"first_not_identical", first == nullptr ? Json(nullptr) : Json(first->name)},
-        {"worst", worst.name}};
+    Json json = {{"same", same()},
+                 {"limits", limits_json(tolerance_)},
+                 {"compared", compared()},
+                 {"differing", failed_.size()},
+                 {"only_in_one", missing_},
+                 {"at_other_times", other_times_},
+                 {"first", first_},
+                 {"first_differing", failed_.empty() ? Json(nullptr) : Json(failed_.front())},
+                 {"first_not_identical", first == nullptr ? Json(nullptr) : Json(first->name)},
+                 {"worst", worst.name}};
     put_measures(json, worst.measures);
     json["differs"] = failed_;
     json["pairs"] = Json::array();

@@ -11,15 +11,6 @@
 
 namespace carom {
 
-/// "largest difference 5 of 255, 20 of 1000 pixels (2 %) differ, PSNR 31.2 dB, SSIM 0.98".
-std::string measures_text(const ImageMeasures& m);
-
-/// The same as members of `json`. Identical pictures have no PSNR: null.
-void put_measures(nlohmann::ordered_json& json, const ImageMeasures& m);
-
-/// "more than 2 of 255": the limits that are missed and by how much; empty where none is.
-std::string missed_text(const ImageTolerance& limits, const ImageMeasures& m);
-
 class Comparison {
   public:
     /// `what` is the plural of what is compared: "pictures" or "frames".

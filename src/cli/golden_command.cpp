@@ -3,25 +3,20 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 
-#include "cli/against.h"
 #include "cli/commands.h"
+#include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
+#include "cli/golden_stills.h"
 #include "cli/interrupt.h"
-#include "cli/options.h"
-#include "cli/short_lived.h"
-#include "cli/shown_simulation.h"
 #include "cli/standard_output.h"
-#include "core/failure.h"
 #include "core/readable.h"
-#include "media/file_kind.h"
+#include "golden/accept.h"
+#include "golden/golden_name.h"
+#include "golden/golden_report.h"
 #include "media/output_folder.h"
 #include "media/png.h"
-#include "render/gl/offscreen.h"
-#include "render/painter.h"
 
 namespace carom {
 
@@ -29,202 +24,200 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct GoldenOptions {
-    std::vector<std::string> scenes;
-    std::string folder;
-    std::string differences;  ///< folder for pictures of what differs; empty: none
-    std::vector<double> times;
-    CommonOptions common;
-};
-
-std::string golden_path(const GoldenOptions& options, const std::string& scene, double time) {
-    return (fs::path(options.folder) / fmt::format("{}-t{:.6f}.png", scene_stem(scene), time))
-        .string();
+/// Where drawn pictures go: as asked for, or beside the JSON that names them.
+std::string drawn_folder(const GoldenOptions& options) {
+    if (!options.differences.empty() || options.json.empty()) return options.differences;
+    const fs::path json(options.json);
+    return (json.parent_path() / (json.stem().string() + "-drawn")).string();
 }
 
-/// Refuses two stills under one name, of which the second would replace the first.
-class GoldenNames {
-  public:
-    void add_scene(const std::string& scene) {
-        const auto [first, fresh] = scenes_.emplace(scene_stem(scene), scene);
-        std::error_code error;
-        if (fresh || first->second == scene || fs::equivalent(first->second, scene, error)) return;
-        throw Failure(FailureKind::kInput,
-                      fmt::format("{} and {} have one name: the goldens of both would be {}-t*.png",
-                                  first->second, scene, scene_stem(scene)));
-    }
-    void add_time(const std::string& golden, double time) {
-        const auto [first, fresh] = times_.emplace(golden, time);
-        if (fresh || first->second == time) return;
-        throw Failure(FailureKind::kInput, fmt::format("the stills at {} s and {} s have one name, "
-                                                       "{}: names have 6 decimals",
-                                                       first->second, time, golden));
-    }
-
-  private:
-    std::map<std::string, std::string> scenes_;  ///< stem -> path
-    std::map<std::string, double> times_;        ///< path of the golden -> s
-};
-
-/// A golden, or why there is none to compare with.
-struct Golden {
-    std::optional<Image> picture;
-    std::string why;
-};
-
-Golden read_golden(const std::string& path) {
-    try {
-        if (file_content(path).kind == FileKind::kLfsPointer) return {std::nullopt, kLfsAdvice};
-        return {read_png(path), ""};
-    } catch (const Failure& failure) {
-        return {std::nullopt, failure.what()};
-    }
+/// Before any work.
+void require_places(const GoldenOptions& options) {
+    std::vector<NamedFile> reports = {
+        {"--html", options.html}, {"--junit", options.junit}, {"--json", options.json}};
+    std::vector<NamedFile> scenes;
+    for (const std::string& scene : options.scenes) scenes.push_back({"SCENE", scene});
+    require_distinct(reports, scenes);
+    for (const NamedFile& report : reports)
+        if (!report.path.empty()) require_writable(report.path, options.common.overwrite);
+    const std::string folder = drawn_folder(options);
+    if (!folder.empty()) require_folder(folder);
 }
 
-/// How many stills came out how.
-struct Tally {
-    int same = 0, different = 0, missing = 0, unreadable = 0;
-    std::string text() const {
-        return fmt::format("{} same, {} different, {} missing, {} unreadable\n", same, different,
-                           missing, unreadable);
-    }
-};
-
-/// One still against its golden; prints what was found, and counts it.
-void compare_with_golden(const GoldenOptions& options, const std::string& path, const Image& drawn,
-                         const std::string& renderer, Tally& tally) {
-    if (!fs::exists(path)) {
-        ++tally.missing;
-        write_standard_output(fmt::format("missing: {}\n", readable(path)));
-        return;
-    }
-    const Golden kept = read_golden(path);
-    if (!kept.picture) {
-        ++tally.unreadable;
-        write_standard_output(
-            fmt::format("unreadable: {}: {}\n", readable(path), readable_message(kept.why)));
-        return;
-    }
-    const Image& golden = *kept.picture;
-    const ImageDifference d = compare_images(golden, drawn);
-    if (ImageTolerance{}.accepts(d)) {
-        ++tally.same;
-        if (!options.common.quiet) write_standard_output(fmt::format("same: {}\n", readable(path)));
-        return;
-    }
-    ++tally.different;
-    std::string found = fmt::format("sizes differ ({}x{}, drawn {}x{})", golden.width_px,
-                                    golden.height_px, drawn.width_px, drawn.height_px);
-    if (d.same_size)
-        found = fmt::format("largest difference {} of 255, {:.3f} % of pixels differ", d.largest,
-                            100 * d.differing_fraction());
-    write_standard_output(
-        fmt::format("different: {}: {}; drawn by {}\n", readable(path), found, renderer));
-    if (!options.differences.empty()) {
-        make_folder(options.differences);
-        const fs::path base = fs::path(options.differences) / fs::path(path).stem();
-        write_png(base.string() + ".drawn.png", drawn);
-        if (d.same_size) write_png(base.string() + ".diff.png", difference_image(golden, drawn));
-    }
+/// What was drawn, and how it differs.
+void write_pictures(const std::string& folder, const Image& drawn, StillCheck& check) {
+    if (folder.empty() || check.outcome == Outcome::kSame) return;
+    make_folder(folder);
+    const std::string base = (fs::path(folder) / check.still.name).string();
+    check.drawn_path = base + ".drawn.png";
+    write_text_file(check.drawn_path, check.drawn_png);
+    if (!check.changed_png.empty() || !check.difference_png.empty())
+        write_png(base + ".diff.png", difference_image(read_png(check.still.golden), drawn));
 }
 
-/// Draws stills of one scene after the other, with one driver: scenes that want the same programs
-/// find them made.
-class Stills {
-  public:
-    Stills(const GoldenOptions& options, const Interrupt& interrupt)
-        : options_(options), interrupt_(interrupt) {
-        for (const std::string& scene : options.scenes) names_.add_scene(scene);
-        if (options.scenes.empty()) return;
-        for (const double time : options.times)
-            names_.add_time(golden_path(options, options.scenes.front(), time), time);
+std::string line_of(const StillCheck& check) {
+    const std::string path = readable(check.still.golden);
+    switch (check.outcome) {
+        case Outcome::kSame:
+            return fmt::format("same: {}\n", path);
+        case Outcome::kMissing:
+            return fmt::format("missing: {}\n", path);
+        case Outcome::kUnreadable:
+            return fmt::format("unreadable: {}: {}\n", path, readable_message(check.why));
+        case Outcome::kDifferent:
+            break;
     }
+    const std::string missed = check.measures.same_size ? "; " + check.missed : "";
+    return fmt::format("different: {}: {}{}; drawn by {}\n", path, check.why, missed,
+                       check.still.renderer);
+}
 
-    /// Runs `use` on every wanted still of one scene. False when the scene is invalid.
-    template <class Use>
-    bool for_each(const std::string& path, const Use& use);
+/// Names what no scene draws; how many there are.
+std::size_t name_orphans(const GoldenOptions& options, const std::vector<std::string>& found) {
+    if (!options.common.quiet || options.orphans_fail)
+        for (const std::string& path : found)
+            write_standard_output(
+                fmt::format("orphan: {}: none of these scenes draws it\n", readable(path)));
+    return found.size();
+}
 
-  private:
-    const GoldenOptions& options_;
-    const Interrupt& interrupt_;
-    GoldenNames names_;
-    std::shared_ptr<DrawingContexts> contexts_;
-    int done_ = 0;
-};
-
-template <class Use>
-bool Stills::for_each(const std::string& path, const Use& use) {
-    const GoldenOptions& options = options_;
-    const std::optional<FilmScenes> scenes = load_film_scenes(path, options.common, {});
-    if (!scenes) return false;
-    const Scene* scene = &scenes->scene;
-    const std::vector<double>& times = options.times.empty() ? scene->film.stills : options.times;
-    if (times.empty())
-        throw Failure(FailureKind::kInput,
-                      fmt::format("{}: no stills: name them with film.stills or --time", path));
-    for (const double time : times) names_.add_time(golden_path(options, path, time), time);
-    const ProgressMode mode = options.common.progress_mode();
-    const SimulationResult simulated = simulate_shown(*scene, interrupt_, mode);
-    const std::optional<FilmedSecond> second =
-        simulate_second(*scenes, simulated.motion, interrupt_, mode);
-    interrupt_.reached(fmt::format("after {} stills", done_));
-    PainterOptions painting;
-    painting.width_px = scene->film.width_px;
-    painting.height_px = scene->film.height_px;
-    painting.second = second ? &second->run : nullptr;
-    painting.few_pictures =
-        draws_sooner_than_it_compiles(painting.width_px, painting.height_px, times.size());
-    if (!contexts_) {
-        if (painting.few_pictures) prefer_quick_compile();
-        contexts_ = std::make_shared<DrawingContexts>();
-    }
-    painting.contexts = contexts_;
-    Painter painter(*scene, simulated.motion, painting);
-    Image picture;
-    for (const double time : times) {
-        if (!(time >= 0 && time <= simulated.motion.duration))
-            throw Failure(FailureKind::kInput,
-                          fmt::format("{}: no instant {} s: the motion ends at {} s", path, time,
-                                      simulated.motion.duration));
-        painter.paint(time, picture);
-        interrupt_.check();
-        use(golden_path(options, path, time), picture, painter.renderer());
-        interrupt_.reached(fmt::format("after {} stills", ++done_));
-    }
-    return true;
+void write_reports(const GoldenOptions& options, const GoldenReport& report) {
+    const auto write = [&options](const std::string& path, const std::string& text) {
+        if (!path.empty())
+            write_text_file(path, text, Durability::kSynced, options.common.existing());
+    };
+    write(options.html, options.html.empty() ? "" : html_page(report));
+    write(options.junit, junit_xml(report));
+    write(options.json, report_json(report, options.json));
 }
 
 int check(const GoldenOptions& options, const Interrupt& interrupt) {
-    if (!options.differences.empty()) require_folder(options.differences);
-    bool valid = true;
-    Tally tally;
-    Stills stills(options, interrupt);
-    for (const std::string& scene : options.scenes)
-        valid &= stills.for_each(
-            scene, [&](const std::string& path, const Image& drawn, const std::string& renderer) {
-                compare_with_golden(options, path, drawn, renderer, tally);
-            });
-    const bool same = tally.different + tally.missing + tally.unreadable == 0;
-    if (!same || !options.common.quiet) write_standard_output(tally.text());
-    if (!valid) return kExitInvalidScene;
+    require_places(options);
+    GoldenReport report{CAROM_VERSION, options.folder, options.limits, {}, {}, {}};
+    GoldenStills stills(options, interrupt);
+    const std::string folder = drawn_folder(options);
+    for (const std::string& scene : options.scenes) {
+        const bool valid = stills.for_each(scene, [&](const DrawnStill& still, const Image& drawn) {
+            report.stills.push_back(check_still(still, drawn, options.limits));
+            StillCheck& found = report.stills.back();
+            write_pictures(folder, drawn, found);
+            if (found.outcome != Outcome::kSame || !options.common.quiet)
+                write_standard_output(line_of(found));
+            if (options.html.empty()) {  // nobody shows them
+                found.golden_png.clear();
+                found.changed_png.clear();
+                found.difference_png.clear();
+            }
+        });
+        if (!valid) report.invalid_scenes.push_back(scene);
+    }
+    report.orphans = orphans(options.folder, stills.names());
+    const bool no_orphans = name_orphans(options, report.orphans) == 0;
+    const bool same = report.count(Outcome::kSame) == static_cast<int>(report.stills.size()) &&
+                      (no_orphans || !options.orphans_fail);
+    if (!same || !options.common.quiet) write_standard_output(report.counts_text() + "\n");
+    write_reports(options, report);
+    if (!report.invalid_scenes.empty()) return kExitInvalidScene;
     return same ? kExitDone : kExitDifferent;
 }
 
 int update(const GoldenOptions& options, const Interrupt& interrupt) {
-    Stills stills(options, interrupt);
-    prepare_folder(options.folder);
+    GoldenStills stills(options, interrupt);
+    if (!options.dry_run) prepare_folder(options.folder);
     bool valid = true;
+    int changed = 0;
     for (const std::string& scene : options.scenes)
-        valid &= stills.for_each(
-            scene, [&](const std::string& path, const Image& drawn, const std::string&) {
-                // A golden that still holds stays as it is, so that its history shows real changes.
-                const Golden kept = fs::exists(path) ? read_golden(path) : Golden{};
-                if (kept.picture && ImageTolerance{}.accepts(compare_images(*kept.picture, drawn)))
-                    return;
-                write_png(path, drawn, PngEffort::kSmall);
-                write_standard_output(fmt::format("written: {}\n", readable(path)));
-            });
+        valid &= stills.for_each(scene, [&](const DrawnStill& still, const Image& drawn) {
+            // A golden that still holds stays as it is, so that its history shows real changes.
+            const StillCheck found = check_still(still, drawn, options.limits);
+            if (found.outcome == Outcome::kSame) return;
+            ++changed;
+            if (!options.dry_run) write_text_file(still.golden, found.drawn_png);
+            write_standard_output(fmt::format("{}: {}: {}\n",
+                                              options.dry_run ? "would write" : "written",
+                                              readable(still.golden), readable_message(found.why)));
+        });
+    name_orphans(options, orphans(options.folder, stills.names()));
+    if (options.dry_run)
+        write_standard_output(
+            fmt::format("{} of {} would be written\n", changed, stills.names().size()));
     return valid ? kExitDone : kExitInvalidScene;
+}
+
+struct AcceptOptions {
+    std::string report;
+    std::vector<std::string> only;
+    bool dry_run = false;
+};
+
+int accept(const AcceptOptions& options) {
+    const std::vector<Acceptance> chosen = acceptances(options.report, options.only);
+    if (!options.dry_run) take(chosen);
+    for (const Acceptance& a : chosen)
+        write_standard_output(fmt::format("{}: {} {}\n",
+                                          options.dry_run ? "would accept" : "accepted",
+                                          readable(a.golden), a.replaces ? "(replaced)" : "(new)"));
+    if (chosen.empty()) write_standard_output("nothing to accept: all stills were the same\n");
+    return kExitDone;
+}
+
+void add_limits(CLI::App& action, GoldenOptions& options) {
+    action
+        .add_option("--tolerance", options.limits.channel,
+                    "Largest difference of any channel, of 255")
+        ->check(CLI::Range(0, 255))
+        ->type_name("0-255")
+        ->capture_default_str();
+    action
+        .add_option("--max-differing", options.limits.differing,
+                    "Largest fraction of pixels that differ at all, 0 to 1; both limits hold")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("F")
+        ->capture_default_str();
+}
+
+void add_check_options(CLI::App& action, GoldenOptions& options) {
+    action
+        .add_option(
+            "--diffs", options.differences,
+            "Folder for pictures of what differs, replaced where they exist (default: none; with "
+            "--json, NAME-drawn beside it)")
+        ->type_name("DIR");
+    action
+        .add_option("--html", options.html, "Write a page that shows what differs (default: none)")
+        ->type_name("PAGE.html");
+    action
+        .add_option("--junit", options.junit, "Write JUnit's XML, for a CI service (default: none)")
+        ->type_name("OUT.xml");
+    action
+        .add_option("--json", options.json,
+                    "Write a report that 'carom golden accept' takes pictures from (default: none)")
+        ->type_name("REPORT.json");
+    action.add_flag("--orphans-fail", options.orphans_fail,
+                    "Fail also where a golden belongs to none of the stills");
+    action.add_flag("-y,--overwrite", options.common.overwrite,
+                    "Replace reports that exist (default: they are kept, exit code 4)");
+}
+
+void add_accept(CLI::App& command, Run& run) {
+    auto* action = command.add_subcommand("accept", "Take drawn pictures of a report as goldens");
+    auto options = std::make_shared<AcceptOptions>();
+    action->footer(
+        "  carom golden accept --from report.json\n"
+        "  carom golden accept --from report.json --only figure8-t1.000000,court\n");
+    action->add_option("--from", options->report, "Report of 'carom golden check --json'")
+        ->required()
+        ->type_name("REPORT.json");
+    action
+        ->add_option("--only", options->only,
+                     "Stills or scenes to take, with commas between them (default: all that are "
+                     "not the same)")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->take_all()
+        ->allow_extra_args(false);
+    action->add_flag("--dry-run", options->dry_run, "Say what would be taken, and take nothing");
+    action->callback([options, &run] { run = [options] { return accept(*options); }; });
 }
 
 }  // namespace
@@ -235,7 +228,8 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     auto options = std::make_shared<GoldenOptions>();
     command->footer(
         "  carom golden update scenes/*.yaml --dir goldens\n"
-        "  carom golden check scenes/*.yaml --dir goldens --diffs differences\n");
+        "  carom golden check scenes/*.yaml --dir goldens --html report.html --json report.json\n"
+        "  carom golden accept --from report.json --only figure8-t1.000000\n");
     const auto add = [&](const char* name, const char* what, auto function) {
         auto* action = command->add_subcommand(name, what);
         action->footer(fmt::format("  carom golden {} scenes/*.yaml --dir goldens\n", name));
@@ -251,6 +245,7 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
             ->type_name("T")
             ->take_all()
             ->allow_extra_args(false);
+        add_limits(*action, *options);
         add_scene_options(*action, options->common);
         add_picture_options(*action, options->common);
         add_progress_options(*action, options->common);
@@ -259,12 +254,11 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         });
         return action;
     };
-    add("check", "Fail (exit code 5) where a still differs from its golden", check)
-        ->add_option(
-            "--diffs", options->differences,
-            "Folder for pictures of what differs, replaced where they exist (default: none)")
-        ->type_name("DIR");
-    add("update", "Write goldens that are missing or differ", update);
+    add_check_options(
+        *add("check", "Fail (exit code 5) where a still differs from its golden", check), *options);
+    add("update", "Write goldens that are missing or differ", update)
+        ->add_flag("--dry-run", options->dry_run, "Say what would be written, and write nothing");
+    add_accept(*command, run);
 }
 
 }  // namespace carom

@@ -1,11 +1,10 @@
 #include "motion/motion.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "core/check.h"
+#include "core/checksum.h"
 
 namespace carom {
 
@@ -95,11 +94,10 @@ std::size_t Trajectory::piece_index(double t) const {
 BallState Trajectory::at(double t) const { return pieces_[piece_index(t)].at(t); }
 
 std::uint64_t Motion::hash() const {
-    XXH3_state_t* state = XXH3_createState();
-    XXH3_64bits_reset(state);
-    const auto add = [state](double value) {
+    Checksum checksum;
+    const auto add = [&checksum](double value) {
         const double plain = value == 0 ? 0.0 : value;  // -0 and 0 are one value
-        XXH3_64bits_update(state, &plain, sizeof plain);
+        checksum.add(&plain, sizeof plain);
     };
     const auto add_vector = [&add](const Vec3& v) {
         for (int i = 0; i < 3; ++i) add(v[i]);
@@ -127,9 +125,7 @@ std::uint64_t Motion::hash() const {
         add_vector(e.point);
         add_vector(e.normal);
     }
-    const std::uint64_t result = XXH3_64bits_digest(state);
-    XXH3_freeState(state);
-    return result;
+    return checksum.value();
 }
 
 }  // namespace carom

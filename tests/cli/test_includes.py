@@ -19,8 +19,9 @@ MAY_INCLUDE = {
     "sim": {"core", "geometry", "scene", "motion"},
     "render": {"core", "geometry", "scene", "motion"},
     "media": {"core"},
+    "golden": {"core", "scene", "media"},
     "report": {"core", "geometry", "scene", "motion", "sim", "render", "media"},
-    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
+    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report"},
 }
 
 # Folder -> its rooms -> the rooms that each may include, besides itself. What lies beside the rooms
@@ -70,7 +71,7 @@ LIBRARY_HOME = {
     r"png\.h": {"media"},
     r"lib(av|sw)\w+/": {"media"},
     r"CLI/": {"cli"},
-    r"xxhash\.h": {"motion"},
+    r"xxhash\.h": {"core"},
 }
 
 

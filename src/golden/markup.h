@@ -1,0 +1,16 @@
+// Text from outside in HTML and XML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace carom {
+
+/// What may stand between tags and in quotes of both: &, <, > and quotes as entities; what would
+/// move a cursor, turn the direction of reading or is no UTF-8 as in core/readable.h.
+std::string escaped(std::string_view text);
+
+/// RFC 4648, section 4.
+std::string base64(std::string_view bytes);
+
+}  // namespace carom
