@@ -64,7 +64,7 @@ SecondSource second_source(const Scene& scene, const std::string& text,
 
 void print(const Diagnostics& diagnostics, bool quiet) {
     for (const Diagnostic& d : diagnostics.items())
-        if (!quiet || d.severity == Severity::kError) say("{}\n", d.text());
+        if (!quiet || d.severity == Severity::kError) write_standard_error(d.shown());
 }
 
 std::string run_name(const Scene& scene, const Scene& compared) {

@@ -64,7 +64,7 @@ int check(const CheckOptions& options, const Interrupt& interrupt) {
             if (options.json)
                 found.push_back(diagnostic_json(d));
             else if (!options.common.quiet || d.severity == Severity::kError)
-                say("{}\n", d.text());
+                write_standard_error(d.shown());
         }
         json.push_back({{"file", path},
                         {"valid", result.scene.has_value()},

@@ -24,6 +24,9 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_figures_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_new_command(CLI::App& app, Run& run);
+void add_help_command(CLI::App& app, Run& run);
+void add_completion_command(CLI::App& app, Run& run);
 void add_schema_command(CLI::App& app, Run& run);
 void add_info_command(CLI::App& app, Run& run);
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -72,13 +73,15 @@ std::string line_of(const StillCheck& check) {
                        check.still.renderer);
 }
 
-/// Names what no scene draws; how many there are.
-std::size_t name_orphans(const GoldenOptions& options, const std::vector<std::string>& found) {
-    if (!options.common.quiet || options.orphans_fail)
-        for (const std::string& path : found)
-            write_standard_output(
-                fmt::format("orphan: {}: none of these scenes draws it\n", readable(path)));
-    return found.size();
+/// Names what no scene draws: a check of one scene finds the goldens of all others.
+void name_orphans(const GoldenOptions& options, const std::vector<std::string>& found) {
+    constexpr std::size_t kMostNamed = 10;
+    if (options.common.quiet && !options.orphans_fail) return;
+    for (std::size_t i = 0; i < std::min(kMostNamed, found.size()); ++i)
+        write_standard_output(
+            fmt::format("orphan: {}: none of these scenes draws it\n", readable(found[i])));
+    if (found.size() > kMostNamed)
+        write_standard_output(fmt::format("orphans: {} more\n", found.size() - kMostNamed));
 }
 
 void write_reports(const GoldenOptions& options, const GoldenReport& report) {
@@ -112,9 +115,9 @@ int check(const GoldenOptions& options, const Interrupt& interrupt) {
         if (!valid) report.invalid_scenes.push_back(scene);
     }
     report.orphans = orphans(options.folder, stills.names());
-    const bool no_orphans = name_orphans(options, report.orphans) == 0;
+    name_orphans(options, report.orphans);
     const bool same = report.count(Outcome::kSame) == static_cast<int>(report.stills.size()) &&
-                      (no_orphans || !options.orphans_fail);
+                      (report.orphans.empty() || !options.orphans_fail);
     if (!same || !options.common.quiet) write_standard_output(report.counts_text() + "\n");
     write_reports(options, report);
     if (!report.invalid_scenes.empty()) return kExitInvalidScene;

@@ -1,6 +1,7 @@
 #include "cli/help.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "cli/command_table.h"
 #include "core/diagnostics.h"
 
 namespace carom {
@@ -26,12 +28,6 @@ std::size_t help_width() {
     if (const char* named = std::getenv("COLUMNS"); columns == 0 && named != nullptr)
         columns = std::strtol(named, nullptr, 10);
     return columns > 0 ? std::max(kLeast, static_cast<std::size_t>(columns)) : kUsual;
-}
-
-/// The name of its value alone: CLI11 adds what its checks have to say.
-std::string value_name(const CLI::Option& option) {
-    const std::string type = option.get_type_name();
-    return type.substr(0, type.find(':'));
 }
 
 std::string option_name(const CLI::Option& option) {
@@ -128,6 +124,19 @@ std::vector<std::string> option_words(const CLI::App& command) {
     return words;
 }
 
+/// "--progress: 'plian' is none of auto, bar, plain, none (did you mean 'plain'?)", or "".
+std::string wrong_choice(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+        const std::vector<std::string> choices = value_choices(*option);
+        if (choices.empty()) continue;
+        for (const std::string& word : option->results())
+            if (std::find(choices.begin(), choices.end(), word) == choices.end())
+                return fmt::format("{}: '{}' is none of {}{}", option->get_name(), word,
+                                   fmt::join(choices, ", "), did_you_mean(word, choices));
+    }
+    return "";
+}
+
 }  // namespace
 
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
@@ -174,7 +183,8 @@ std::string usage_error(const CLI::App& app, const std::string& parser_says,
     const bool known = std::find(names.begin(), names.end(), argument) != names.end();
     if (&command == &app && !argument.empty() && !known)
         return fmt::format("there is no command '{}'{}", argument, did_you_mean(argument, names));
-    return parser_says;
+    const std::string wrong = wrong_choice(command);
+    return wrong.empty() ? parser_says : wrong;
 }
 
 }  // namespace carom

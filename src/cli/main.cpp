@@ -22,11 +22,20 @@ namespace carom {
 namespace {
 
 constexpr const char* kExamples =
+    "  carom new ball\n"
     "  carom render scenes/figure9.yaml -o out/figure9.mp4\n"
     "  carom still scenes/figure8.yaml --time 1.2 -o out/figure8.png\n"
     "  carom simulate scenes/figure8.yaml -o motion.csv --events events.csv\n"
     "  carom check scenes/*.yaml\n"
     "  carom help render\n";
+
+/// What `carom` alone says.
+constexpr const char* kFirstSteps =
+    "carom films bouncing balls from a text file. Three commands to begin with:\n\n"
+    "  carom new ball                      writes ball.yaml, a scene with comments\n"
+    "  carom render ball.yaml -o ball.mp4  films it\n"
+    "  carom help                          names all commands; carom help render, all options of "
+    "one\n";
 
 int exit_code_of(const Failure& failure) {
     switch (failure.kind()) {
@@ -44,7 +53,8 @@ int exit_code_of(const Failure& failure) {
 std::vector<std::string> arguments_of(int argc, char** argv) {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     if (words.empty()) return words;
-    if (words.front() == "help") {
+    const bool has_options = words.size() > 1 && words[1].starts_with("-");
+    if (words.front() == "help" && !has_options) {
         words.erase(words.begin());
         words.emplace_back("--help");
     } else if (words.front() == "version") {
@@ -95,6 +105,7 @@ int run_program(int argc, char** argv) {
     app.set_version_flag("--version", "carom " CAROM_VERSION, "Print the version");
     app.require_subcommand(1);
     Run run;
+    add_new_command(app, run);
     add_render_command(app, run, interrupt);
     add_still_command(app, run, interrupt);
     add_simulate_command(app, run, interrupt);
@@ -106,12 +117,14 @@ int run_program(int argc, char** argv) {
     add_fit_command(app, run, interrupt);
     add_schema_command(app, run);
     add_info_command(app, run);
+    add_completion_command(app, run);
+    add_help_command(app, run);
 
     app.footer(kExamples);
 
     std::vector<std::string> words = arguments_of(argc, argv);
     if (words.empty()) {
-        fmt::print(stderr, "{}", help_text(app));
+        write_standard_error(kFirstSteps);
         return kExitUsage;
     }
     const std::string first = words.front();

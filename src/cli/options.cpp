@@ -79,7 +79,7 @@ std::optional<Scene> load_scene(const std::string& path, const CommonOptions& op
     SceneResult result = read_scene_file(path, options.overrides());
     for (const Diagnostic& d : result.diagnostics.items()) {
         if (options.quiet && d.severity == Severity::kWarning) continue;
-        say("{}\n", d.text());
+        write_standard_error(d.shown());
     }
     return std::move(result.scene);
 }

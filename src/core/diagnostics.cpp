@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/excerpt.h"
 #include "core/readable.h"
 
 namespace carom {
@@ -16,6 +17,8 @@ std::string Diagnostic::text() const {
     const char* word = severity == Severity::kError ? "error" : "warning";
     return fmt::format("{}: {}: {}", place, word, readable_message(message));
 }
+
+std::string Diagnostic::shown() const { return text() + "\n" + excerpt(source_line, mark); }
 
 bool Diagnostics::has_errors() const {
     return std::any_of(items_.begin(), items_.end(),

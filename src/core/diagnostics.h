@@ -20,9 +20,12 @@ struct Diagnostic {
     std::string file;  ///< as the user named it; "--set PATH" for a command line override
     SourceMark mark;
     std::string message;
+    std::string source_line{};  ///< the line that `mark` names, without its end; "" where unknown
 
     /// "file:line:column: error: message", without the numbers that are unknown.
     std::string text() const;
+    /// The same with an end, and below it the line with a mark under the place (excerpt.h).
+    std::string shown() const;
 };
 
 /// A growing list of diagnostics. Order: as found; sort() orders by file, line, column.

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <memory>
 
+#include "core/excerpt.h"
 #include "core/failure.h"
 #include "scene/build.h"
 #include "scene/document.h"
@@ -69,6 +70,20 @@ void point_out_odd_blanks(std::string_view text, const std::string& file, Diagno
     all = std::move(result);
 }
 
+/// So that messages can show them. Looks at each line of the text once: marks are in order.
+void add_source_lines(std::string_view text, const std::string& file, Diagnostics& all) {
+    Diagnostics result;
+    int before = 1;
+    for (Diagnostic d : all.items()) {
+        if (d.file == file && d.mark.line >= before) {
+            for (; before < d.mark.line && !text.empty(); ++before) text = after_first_line(text);
+            d.source_line = first_line(text);
+        }
+        result.add(std::move(d));
+    }
+    all = std::move(result);
+}
+
 }  // namespace
 
 const std::vector<Node>& Build::entries(std::string_view key) const {
@@ -102,6 +117,7 @@ SceneResult read_scene(std::string_view text, const std::string& file,
     result.diagnostics = std::move(report.diagnostics());
     if (result.diagnostics.has_errors()) point_out_odd_blanks(text, file, result.diagnostics);
     result.diagnostics.sort();
+    add_source_lines(text, file, result.diagnostics);
     return result;
 }
 

@@ -187,6 +187,10 @@ class Orphans(GoldenTest):
         self.assertNotIn("orphan", self.check(0, "-q").stdout)
         self.assertIn("orphan", self.check(5, "--orphans-fail").stdout)
         self.assertIn("orphan", self.update(*self.base).stdout)
+        for k in range(9):
+            (self.goldens / f"o-t{k}.000000.png").write_text("")
+        self.assertIn("orphans: 2 more\n", self.check(0).stdout)
+        self.assertEqual(12, len(self.report()["orphans"]))
 
 
 class Html(GoldenTest):
