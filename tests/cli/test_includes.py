@@ -21,6 +21,7 @@ MAY_INCLUDE = {
     "media": {"core"},
     "golden": {"core", "scene", "media"},
     "report": {"core", "geometry", "scene", "motion", "sim", "render", "media"},
+    "api": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
     "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report"},
 }
 

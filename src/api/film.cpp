@@ -1,0 +1,99 @@
+#include <carom/film.h>
+#include <fmt/format.h>
+
+#include <memory>
+#include <vector>
+
+#include "api/painting.h"
+#include "media/film_format.h"
+#include "media/frame_sink.h"
+#include "media/threaded_sink.h"
+#include "report/filming.h"
+#include "scene/film_clock.h"
+
+namespace carom::v1 {
+
+PainterOptions painter_options(const Scene& scene, const Motion& motion) {
+    const carom::Scene& inner = scene.impl().scene;
+    if (inner.against)
+        throw Error(
+            "this scene shows a second run (against), which `carom render` draws and the "
+            "library does not: take the key away");
+    if (motion.balls() != scene.balls() || motion.surfaces() != scene.surfaces())
+        throw Error("this is the motion of another scene");
+    PainterOptions options;
+    options.width_px = inner.film.width_px;
+    options.height_px = inner.film.height_px;
+    return options;
+}
+
+namespace {
+
+constexpr int kWaitingFrames = 1;  // between drawing and encoding, as the program has
+
+carom::FilmOptions film_options(const carom::Scene& scene, const FilmOptions& options) {
+    carom::FilmOptions film;
+    film.width_px = scene.film.width_px;
+    film.height_px = scene.film.height_px;
+    film.fps_numerator = scene.film.fps.numerator;
+    film.fps_denominator = scene.film.fps.denominator;
+    film.transparent = scene.background == Background::kTransparent;
+    film.codec = options.codec;
+    if (!options.quality.empty()) film.quality = options.quality;
+    film.crf = options.crf;
+    film.threads = options.threads;
+    film.title = scene.title;
+    film.comment = fmt::format("carom {}, scene {:016x}", CAROM_VERSION, scene.fingerprint);
+    film.existing = existing_of(options.overwrite);
+    return film;
+}
+
+/// As the program's frames: title, maker, scene and instant.
+PngNotes notes_of(const carom::Scene& scene, std::int64_t number) {
+    PngNotes notes;
+    if (!scene.title.empty()) notes.texts.emplace_back("Title", scene.title);
+    notes.texts.emplace_back("Software", "carom " CAROM_VERSION);
+    notes.texts.emplace_back("Scene", fmt::format("{:016x}", scene.fingerprint));
+    notes.texts.emplace_back("Time", fmt::format("{:.9g} s", frame_time(scene.film, number)));
+    return notes;
+}
+
+std::unique_ptr<FrameSink> make_sink(const carom::Scene& scene, const std::string& path,
+                                     const FilmOptions& options) {
+    if (find_film_format(path) == nullptr) {
+        if (!options.codec.empty() || !options.quality.empty() || options.crf)
+            throw Error(path + " is no film: codec, quality and crf mean nothing to PNG frames");
+        return make_png_sequence(path, options.threads, existing_of(options.overwrite),
+                                 [&scene](std::int64_t number) { return notes_of(scene, number); });
+    }
+    const carom::FilmOptions film = film_options(scene, options);
+    require_writable(path, options.overwrite);
+    require_film(path, film);
+    return make_threaded_sink(make_film_writer(path, film), kWaitingFrames);
+}
+
+}  // namespace
+
+std::int64_t film(const Scene& scene, const Motion& motion, const std::string& path,
+                  const FilmOptions& options, const Control& control) {
+    return translated(control, [&] {
+        const carom::Scene& inner = scene.impl().scene;
+        const PainterOptions painting = painter_options(scene, motion);
+        std::vector<std::unique_ptr<FrameSink>> sinks;
+        sinks.push_back(make_sink(inner, path, options));
+        Painter painter(inner, motion.impl().motion, painting);
+        const FrameRanges frames = FrameRanges::all(frame_count(inner.film, motion.duration()));
+        FilmingHooks hooks;
+        hooks.stops = [&control] { return control.stop.stop_requested(); };
+        hooks.written = [&control](std::int64_t done) {
+            if (control.progress) control.progress(static_cast<double>(done));
+        };
+        const std::int64_t done = film_frames(painter, inner.film, frames, sinks, hooks);
+        if (done < frames.size())
+            throw Stopped(fmt::format("stopped after {} of {} frames", done, frames.size()));
+        sinks.front()->finish();
+        return done;
+    });
+}
+
+}  // namespace carom::v1
