@@ -70,3 +70,6 @@ endif()
 if(CAROM_BUILD_PYTHON)
   add_subdirectory(python)
 endif()
+
+# ---- Packages --------------------------------------------------------------------------------------
+include(cmake/packages.cmake)

@@ -9,7 +9,7 @@ scripts/setup.sh --group film --group test --group bench --group long \
     --preset dev --preset tsan --preset release-tests --preset bench
 
 echo "test_long: format"
-git ls-files 'src/*.cpp' 'src/*.h' 'tests/*.cpp' 'bench/*.cpp' | xargs clang-format --dry-run --Werror
+git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run --Werror
 echo "test_long: the pages of all headers, without warnings"
 scripts/api_docs.sh
 echo "test_long: lint"
@@ -26,6 +26,10 @@ echo "test_long: the same motion in Debug and Release"
 cmake --build --preset release-tests --target carom
 CAROM=build/release-tests/carom CAROM_OTHER=build/dev/carom CAROM_SOURCE_DIR=. \
     python3 -B tests/cli/test_same_motion.py -v
+
+echo "test_long: library, Python module, the example project"
+scripts/setup.sh --group film --group package
+scripts/test_package.sh
 
 echo "test_long: film in a browser"
 build/release-tests/carom render scenes/figure9.yaml -o out/figure9.mp4 -y

@@ -1,4 +1,5 @@
-// Scenes that travel inside the program, so that `carom figures` and `carom new` work from any folder.
+// Scenes that travel inside the program, so that `carom figures` and `carom new` work from any
+// folder.
 #pragma once
 
 #include <string_view>
