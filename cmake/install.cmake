@@ -61,6 +61,8 @@ if(CAROM_BUILD_LIBRARY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/caromConfig.cmake
     ${CMAKE_CURRENT_BINARY_DIR}/caromConfigVersion.cmake cmake/caromGoldenTest.cmake
     DESTINATION ${package_folder} COMPONENT development)
+  # Found from where it stands, so that the prefix can be moved.
+  file(RELATIVE_PATH pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
   configure_file(cmake/carom.pc.in ${CMAKE_CURRENT_BINARY_DIR}/carom.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/carom.pc
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

@@ -23,7 +23,7 @@ for configuration in "${configurations[@]}"; do
     cmake --install "$build" --prefix "$prefix" >>"$work/log"
 done
 
-# Nothing of the inside is shown, and nothing of the prefix at build time is remembered.
+# Nothing of the inside is shown.
 library=$(find "$prefix" -name 'libcarom.so.*.*.*')
 if nm -D --defined-only --demangle "$library" | grep ' [TBDRVW] ' | grep -E ' carom::' | grep -qv 'carom::v1::'; then
     echo "package: the shared library shows names of the inside" >&2

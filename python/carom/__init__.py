@@ -21,6 +21,9 @@ from ._carom import Diagnostic, Error, Motion as _Motion, Scene, SceneError, __v
 __all__ = ["Diagnostic", "Difference", "Error", "Fit", "Motion", "Scene", "SceneError", "States",
            "compare", "film", "fit", "load", "read_png", "simulate", "still", "write_png", "EVENT_DTYPE"]
 
+for _kind in (Diagnostic, Error, Scene, SceneError):
+    _kind.__module__ = __name__  # as users name them
+
 EVENT_DTYPE = _np.dtype([
     ("time", "f8"), ("ball", "i4"), ("other", "i4"), ("other_is_surface", "?"), ("kind", "U8"),
     ("point", "f8", 3), ("normal", "f8", 3), ("approach_speed", "f8"), ("separation_speed", "f8"),

@@ -20,6 +20,7 @@ import numpy as np
 import carom
 
 SOURCE = pathlib.Path(os.environ["CAROM_SOURCE_DIR"])
+os.environ["PYTHONPATH"] = str(pathlib.Path(carom.__file__).resolve().parents[1])  # for other processes
 TEXT = """\
 carom: 1
 simulation: {duration: 1}
@@ -70,8 +71,10 @@ class Module(unittest.TestCase):
     def test_the_same_as_the_program(self):
         path = self.folder / "s.yaml"
         path.write_text(TEXT)
-        scene = carom.load(path, set={"balls.a.position": np.array([0, 0, 0.7])})
+        scene = carom.load(path, set={"balls.a.position": "[0, 0, 0.7]"})
         motion = carom.simulate(scene)
+        values = carom.load(path, set={"balls.a.position": np.array([0, 0, 0.7])})
+        self.assertEqual(motion.hash, carom.simulate(values).hash)
         setting = ["--set", "balls.a.position=[0, 0, 0.7]"]
         program = os.environ["CAROM"]
         stats = subprocess.run([program, "simulate", path, "-o", "/dev/null", "--stats", "-", *setting], check=True,
