@@ -12,12 +12,14 @@ add_custom_command(OUTPUT ${made}/carom.1 ${made}/carom.bash ${made}/_carom ${ma
   COMMAND carom completion zsh > ${made}/_carom
   COMMAND carom completion fish > ${made}/carom.fish
   DEPENDS carom VERBATIM)
-add_custom_target(carom_manual ALL DEPENDS ${made}/carom.1)
+add_custom_command(OUTPUT ${made}/carom.1.gz COMMAND gzip -9nkf ${made}/carom.1
+  DEPENDS ${made}/carom.1 VERBATIM)
+add_custom_target(carom_manual ALL DEPENDS ${made}/carom.1.gz)
 
 install(TARGETS carom EXPORT caromTargets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   COMPONENT program)
 set_target_properties(carom PROPERTIES EXPORT_NAME program)
-install(FILES ${made}/carom.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${made}/carom.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${made}/carom.bash RENAME carom COMPONENT program
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${made}/_carom COMPONENT program
@@ -70,6 +72,7 @@ endif()
 
 # ---- The Python module -----------------------------------------------------------------------------
 if(CAROM_BUILD_PYTHON)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
   add_subdirectory(python)
 endif()
 

@@ -15,34 +15,43 @@ set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# function(component, package, section, one line, more lines)
-function(carom_package component package section summary text)
+# A changelog has to be there, compressed.
+set(changelog ${CMAKE_CURRENT_BINARY_DIR}/made/changelog.gz)
+add_custom_command(OUTPUT ${changelog}
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/made
+  COMMAND gzip -9nc ${CMAKE_CURRENT_SOURCE_DIR}/debian/changelog > ${changelog}
+  DEPENDS debian/changelog VERBATIM)
+add_custom_target(carom_changelog ALL DEPENDS ${changelog})
+
+# The first line of each description is the project's; `text` has lines of at most 79 characters.
+function(carom_package component package section text)
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package} PARENT_SCOPE)
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section} PARENT_SCOPE)
-  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}\n${text}" PARENT_SCOPE)
-  install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/debian/copyright
+  set(CPACK_DEBIAN_${upper}_DESCRIPTION "${text}" PARENT_SCOPE)
+  install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/debian/copyright ${changelog}
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
 endfunction()
 
 set(CPACK_COMPONENTS_ALL program)
-carom_package(program carom science "physically exact films of bouncing balls"
-  "A text file goes in; films, pictures, golden images and numbers come out, with no display.")
+carom_package(program carom science
+  "A text file goes in; films, pictures, golden images and numbers come out,\nwith no display.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ${run_time_packages})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox, fonts-inter")
 if(CAROM_BUILD_LIBRARY)
   set(soname ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   list(APPEND CPACK_COMPONENTS_ALL library development)
-  carom_package(library libcarom${soname} libs "bouncing balls: shared library"
-    "Scenes, their motions as functions of time, pictures and films, for other programs.")
+  carom_package(library libcarom${soname} libs
+    "The shared library: scenes, their motions as functions of time, pictures\nand films, for other programs.")
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ${run_time_packages})
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
-  carom_package(development libcarom-dev libdevel "bouncing balls: headers and static library"
-    "Headers, a CMake package with a function for tests of pictures, a pkg-config file.")
+  carom_package(development libcarom-dev libdevel
+    "Headers, the static library, a CMake package with a function for tests of\npictures, a pkg-config file.")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libcarom${soname} (= ${PROJECT_VERSION}), carom (= ${PROJECT_VERSION})")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
@@ -50,8 +59,8 @@ if(CAROM_BUILD_LIBRARY)
 endif()
 if(CAROM_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  carom_package(python python3-carom python "bouncing balls: Python module"
-    "Motions as NumPy arrays, pictures and films.")
+  carom_package(python python3-carom python
+    "The Python module: motions as NumPy arrays, pictures and films.")
   math(EXPR next "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy, ${run_time_packages}")
