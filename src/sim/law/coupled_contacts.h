@@ -28,6 +28,8 @@ struct CoupledBall {
     double radius = 0.1;
     double mass = 1;
     double inertia_factor = 0.4;
+    Vec3 gravity = Vec3::Zero();    ///< less buoyancy, m/s^2
+    const AirForce* air = nullptr;  ///< as in SingleContact
 };
 
 struct CoupledContacts {
@@ -35,7 +37,9 @@ struct CoupledContacts {
     std::array<CoupledContact, kMostCoupledContacts> contacts;
     std::size_t ball_count = 0;
     std::size_t contact_count = 0;
-    Vec3 gravity = Vec3::Zero();  ///< m/s^2
+    Vec3 gravity = Vec3::Zero();  ///< m/s^2: the size of what acts
+
+    bool in_air() const;  ///< whether air acts on a ball
 
     double smallest_radius() const;
     /// The weight of the lighter ball of a contact [N]: the size of what acts there.

@@ -12,6 +12,12 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
     effects["gravity"] = g > 0 ? Effect{true, fmt::format("{} m/s^2", g)}
                                : Effect{false, "simulation.gravity is [0, 0, 0]"};
 
+    if (scene.air)
+        effects["air"] = {true, fmt::format("{} kg/m^3{}", scene.air->density,
+                                            scene.air->buoyancy ? "" : ", without buoyancy")};
+    else
+        effects["air"] = {false, "the scene names none: no drag, no lift, no buoyancy"};
+
     const std::size_t surfaces = scene.surfaces.size();
     effects["surfaces"] = surfaces > 0 ? Effect{true, fmt::format("the scene has {}", surfaces)}
                                        : Effect{false, "the scene has none"};
