@@ -34,7 +34,7 @@ ROOMS = {
         "law": {"contact"},
         "record": {"contact", "math"},
         "integrate": {"law", "math"},
-        "fixed": {"contact", "record", "solve"},
+        "fixed": {"contact", "law", "record", "solve"},
         "world": {"collide", "contact", "law", "record"},
         "group": {"record", "solve", "world"},
         "phase": {"contact", "group", "integrate", "law", "math", "record", "solve", "world"},

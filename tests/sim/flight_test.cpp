@@ -159,7 +159,7 @@ TEST(Flight, WindIsAChangeOfFrame) {
     const Motion a = run(still, 2).motion, b = run(windy, 2).motion;
     for (const double t : {0.3, 0.9, 2.0}) {
         EXPECT_LT((a.balls[0].at(t).position + t * wind - b.balls[0].at(t).position).norm(), 1e-12);
-        EXPECT_LT((a.balls[0].at(t).velocity + wind - b.balls[0].at(t).velocity).norm(), 1e-12);
+        EXPECT_LT((a.balls[0].at(t).velocity + wind - b.balls[0].at(t).velocity).norm(), 5e-12);
     }
 }
 
@@ -219,6 +219,119 @@ TEST(Flight, BouncesComeToRest) {
     }
     EXPECT_NEAR(r.motion.balls[0].at(6).position.z(), 0.02, 1e-12);
     EXPECT_LT(r.motion.events.size(), 200u);
+}
+
+// ---- In contact
+// -------------------------------------------------------------------------------------
+
+/// K of the drag K u^2 [1/m].
+double drag_per_speed(const Ball& ball, double drag) {
+    return 0.5 * 1.225 * drag * std::numbers::pi * ball.radius * ball.radius / ball.mass;
+}
+
+/// On a smooth floor v = v0 / (1 + K v0 t); a ball that rolls has 1 + k times the inertia.
+TEST(AirOnTheFloor, SlidingAndRollingSlowDown) {
+    for (const double friction : {0.0, 0.5}) {
+        Scene scene = exact_scene(0.5, friction, kG);
+        scene.air = Air{.buoyancy = false};
+        add_plane(scene);
+        Ball& ball = add_ball(scene, Vec3(0, 0, 0.1), Vec3(4, 0, 0), 0.1);
+        ball.mass = 0.2;
+        if (friction > 0) ball.spin = Vec3(0, 40, 0);
+        ball.flight.drag = {Drag::Over::kNothing, 0.5, nullptr};
+        const double inertia = friction > 0 ? 1 + ball.inertia_factor : 1;
+        const double rate = drag_per_speed(ball, 0.5) * 4 / inertia;
+        const BallState s = run(scene, 5).motion.balls[0].at(5);
+        EXPECT_NEAR(s.velocity.x(), 4 / (1 + 5 * rate), 1e-12);
+        EXPECT_NEAR(s.position.x(), 4 / rate * std::log1p(5 * rate), 1e-11);
+        if (friction > 0) {
+            EXPECT_NEAR(s.spin.y(), s.velocity.x() / 0.1, 1e-11);
+        }
+    }
+}
+
+/// Wind sets a ball on a smooth floor in motion: its speed through the air falls as above.
+TEST(AirOnTheFloor, WindDrivesABallAtRest) {
+    Scene scene = exact_scene(0.5, 0, kG);
+    scene.air = Air{.wind = Vec3(6, 0, 0), .buoyancy = false};
+    add_plane(scene);
+    Ball& ball = add_ball(scene, Vec3(0, 0, 0.1), Vec3::Zero(), 0.1);
+    ball.mass = 0.2;
+    ball.flight.drag = {Drag::Over::kNothing, 0.5, nullptr};
+    const double rate = drag_per_speed(ball, 0.5) * 6;
+    const BallState s = run(scene, 3).motion.balls[0].at(3);
+    EXPECT_NEAR(s.velocity.x(), 6 - 6 / (1 + 3 * rate), 1e-11);
+}
+
+/// Two smooth planes hold the ball: both contacts are integrated together.
+TEST(AirOnTheFloor, SlidesAlongAGroove) {
+    Scene scene = exact_scene(0.5, 0, kG);
+    scene.air = Air{.buoyancy = false};
+    const double s45 = std::sqrt(0.5);
+    add_plane(scene, Vec3(0, s45, s45), 0);
+    add_plane(scene, Vec3(0, -s45, s45), 0);
+    Ball& ball = add_ball(scene, Vec3(0, 0, 0.1 / s45), Vec3(4, 0, 0), 0.1);
+    ball.mass = 0.2;
+    ball.flight.drag = {Drag::Over::kNothing, 0.5, nullptr};
+    const double rate = drag_per_speed(ball, 0.5) * 4;
+    const BallState s = run(scene, 5).motion.balls[0].at(5);
+    EXPECT_NEAR(s.velocity.x(), 4 / (1 + 5 * rate), 1e-10);
+    EXPECT_NEAR(s.position.x(), 4 / rate * std::log1p(5 * rate), 1e-9);
+}
+
+/// Where half of every ball's weight is carried, all goes as under half of the gravity: a ball that
+/// bounces onto a heap of others in a corner, through impacts, rolling and islands. What a step of
+/// ODE takes for slow goes by gravity itself: there they part.
+TEST(AirOnTheFloor, BuoyancyIsLessGravityInAHeap) {
+    const auto heap = [](double gravity, bool buoyancy) {
+        Scene scene = exact_scene(0.5, 0.3, gravity);
+        if (buoyancy) scene.air = Air{.density = 500, .viscosity = 1};
+        add_plane(scene);
+        add_plane(scene, Vec3(0.6, 0, 0.8), -0.1);
+        for (int i = 0; i < 4; ++i) {
+            const Vec3 at(0.03 * i + 0.001 * i * i, 0.002 * (i % 3), 0.06 + 0.105 * i);
+            Ball& ball = add_ball(scene, at, Vec3::Zero(), 0.05);
+            ball.mass = 1000 * 4.0 / 3 * std::numbers::pi * std::pow(0.05, 3);
+            ball.flight.drag = {Drag::Over::kNothing, 0, nullptr};
+        }
+        return scene;
+    };
+    Scene light = heap(8, false), carried = heap(16, true);
+    const SimulationResult a = run(light, 0.6), b = run(carried, 0.6);
+    double apart = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        for (const double t : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6})
+            apart = std::max(
+                apart,
+                (a.motion.balls[i].at(t).position - b.motion.balls[i].at(t).position).norm());
+    std::printf("%lld and %lld impacts, %lld and %lld pieces integrated, apart by %.2g m\n",
+                static_cast<long long>(a.report.impacts), static_cast<long long>(b.report.impacts),
+                static_cast<long long>(a.report.integrated),
+                static_cast<long long>(b.report.integrated), apart);
+    EXPECT_GT(b.report.impacts, 10);
+    EXPECT_LT(apart, 1e-9);
+}
+
+/// The paper's loop with the air's forces comes to the exact motion as its step does to 0.
+TEST(Flight, FixedStepsConverge) {
+    Scene scene = in_air(0.0577, 0.033497, 0.507, 0.7);
+    scene.balls[0].position = Vec3(0, 0, 1);
+    scene.balls[0].velocity = Vec3(20, 0, 3);
+    scene.balls[0].spin = Vec3(0, -200, 0);
+    scene.balls[0].flight.lift.over = Lift::Over::kTennis;
+    scene.balls[0].flight.spin_decay_s = 5;
+    const BallState exact = run(scene, 0.6).motion.balls[0].at(0.6);
+    scene.simulation.method = Method::kFixed;
+    std::vector<double> errors;
+    for (const double step : {1e-3, 5e-4, 2.5e-4}) {
+        scene.simulation.step = step;
+        const BallState s = run(scene, 0.6).motion.balls[0].at(0.6);
+        errors.push_back((s.position - exact.position).norm());
+        EXPECT_LT((s.spin - exact.spin).norm(), 10 * step * exact.spin.norm());
+    }
+    EXPECT_LT(errors[0], 0.02);
+    EXPECT_NEAR(errors[1] / errors[0], 0.5, 0.05);
+    EXPECT_NEAR(errors[2] / errors[1], 0.5, 0.05);
 }
 
 }  // namespace

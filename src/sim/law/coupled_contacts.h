@@ -28,7 +28,7 @@ struct CoupledBall {
     double radius = 0.1;
     double mass = 1;
     double inertia_factor = 0.4;
-    Vec3 gravity = Vec3::Zero();    ///< less buoyancy, m/s^2
+    double buoyant_part = 0;        ///< gravity less this part of it pulls the ball
     const AirForce* air = nullptr;  ///< as in SingleContact
 };
 
@@ -39,7 +39,9 @@ struct CoupledContacts {
     std::size_t contact_count = 0;
     Vec3 gravity = Vec3::Zero();  ///< m/s^2: the size of what acts
 
-    bool in_air() const;  ///< whether air acts on a ball
+    bool in_air() const;  ///< whether moving through air acts on a ball
+    /// Gravity less buoyancy, m/s^2.
+    Vec3 pull(std::size_t ball) const { return (1 - balls[ball].buoyant_part) * gravity; }
 
     double smallest_radius() const;
     /// The weight of the lighter ball of a contact [N]: the size of what acts there.

@@ -55,7 +55,7 @@ ContactMotions contact_motions(const CoupledContacts& system, const CoupledState
     ContactMotions at;
     for (std::size_t b = 0; b < system.ball_count; ++b) {
         const CoupledBall& ball = system.balls[b];
-        at.pull[b] = ball.gravity;
+        at.pull[b] = system.pull(b);
         if (ball.air != nullptr) at.pull[b] += ball.air->acceleration(state[b].v, state[b].w);
     }
     for (std::size_t i = 0; i < system.contact_count; ++i)

@@ -66,7 +66,8 @@ bool CoupledIslands::coupled_system(const std::vector<int>& island, double now,
     };
     for (std::size_t b = 0; b < island.size(); ++b) {
         const ExactBall& body = world_.ball(island[b]);
-        system.balls[b] = {body.radius, body.mass, body.inertia_factor, world_.pull(island[b]),
+        system.balls[b] = {body.radius, body.mass, body.inertia_factor,
+                           world_.buoyant_part(island[b]),
                            world_.feels_air(island[b]) ? &world_.air(island[b]) : nullptr};
         const Velocities velocities = world_.velocities(island[b], now);
         is.state[b] = {world_.position(island[b], now), velocities.linear, velocities.spin};
@@ -110,7 +111,7 @@ void CoupledIslands::pay_for_places(const std::vector<int>& island, double now,
         old_places.push_back(world_.position(island[b], now));
         old_velocities.push_back(world_.velocities(island[b], now));
         account.add(ball.mass, ball.inertia_factor * ball.mass * ball.radius * ball.radius,
-                    ball.radius, old_places.back(), is.system.balls[b].gravity);
+                    ball.radius, old_places.back(), is.system.pull(b));
         places.push_back(is.state[b].x);
         velocities.push_back({is.state[b].v, is.state[b].w});
     }

@@ -72,11 +72,10 @@ class ExactBalls {
     const ExactBall& ball(int i) const { return balls[static_cast<std::size_t>(i)]; }
     const Ball& body(int i) const { return scene.balls[static_cast<std::size_t>(i)]; }
 
+    /// The weight of the air that a ball displaces over its own.
+    double buoyant_part(int i) const { return air_.empty() ? 0 : air(i).buoyant_part(); }
     /// Gravity less buoyancy, m/s^2.
-    Vec3 pull(int i) const {
-        return air_.empty() ? scene.simulation.gravity
-                            : Vec3((1 - air(i).buoyant_part()) * scene.simulation.gravity);
-    }
+    Vec3 pull(int i) const { return (1 - buoyant_part(i)) * scene.simulation.gravity; }
     /// Whether there is air whose forces change with the ball's motion.
     bool feels_air(int i) const { return !air_.empty() && air(i).acts(); }
     bool spin_decays(int i) const { return !air_.empty() && air(i).spin_decay() > 0; }
