@@ -14,6 +14,8 @@
 #include "media/output_file.h"
 #include "report/fit.h"
 #include "report/paper_data.h"
+#include "scene/catalogue.h"
+#include "scene/report.h"
 #include "scene/scalar.h"
 
 namespace carom {
@@ -27,6 +29,10 @@ struct FitCommandOptions {
     std::string rebound_to = "bottom";
     std::string diameter;
     std::string reading_error;
+    bool air = false;
+    double density = Air{}.density;
+    std::string ball, radius;
+    double mass = 0, drag = 0;
     double constant = kPaperConstant;
     double velocity = kFixedVelocity_m_s;
     std::string name = "measured";
@@ -79,6 +85,27 @@ double above_zero(const std::string& text, Quantity quantity, const std::string&
     return value;
 }
 
+/// The ball that flies in air: a preset's numbers, or the options' own where they are given.
+FallInAir fall_in_air(const FitCommandOptions& options) {
+    const Preset* preset = nullptr;
+    if (!options.ball.empty()) {
+        preset = find_preset(options.ball);
+        if (preset == nullptr)
+            usage(fmt::format("--ball {}: there is no preset of that name{}", options.ball,
+                              suggestion(options.ball, preset_names())));
+    }
+    const double radius = options.radius.empty()
+                              ? (preset == nullptr ? 0 : preset->radius)
+                              : above_zero(options.radius, Quantity::kLength, "--radius");
+    const double mass = options.mass > 0 ? options.mass : preset == nullptr ? 0 : preset->mass;
+    const double drag = options.drag > 0 ? options.drag : preset == nullptr ? 0 : preset->drag;
+    if (!(radius > 0 && mass > 0 && drag > 0))
+        usage("--air needs the ball: --ball PRESET, or --radius, --mass and --drag");
+    Air air;
+    air.density = options.density;
+    return {air, radius, mass, drag, -Simulation{}.gravity.z()};
+}
+
 FitOptions fit_options(const FitCommandOptions& options, const Measurements& measured) {
     FitOptions result;
     const bool times = measured.drops.empty();
@@ -91,6 +118,11 @@ FitOptions fit_options(const FitCommandOptions& options, const Measurements& mea
         result.rebound_to = ReboundTo::kTop;
         result.diameter_m = above_zero(options.diameter, Quantity::kLength, "--diameter");
     }
+    const bool ball = !options.ball.empty() || !options.radius.empty() || options.mass > 0 ||
+                      options.drag > 0 || options.density != Air{}.density;
+    if (ball && !options.air)
+        usage("--ball, --radius, --mass, --drag and --density are only needed with --air");
+    if (options.air) result.air = fall_in_air(options);
     if (!options.reading_error.empty())
         result.reading_error = above_zero(
             options.reading_error, times ? Quantity::kTime : Quantity::kLength, "--reading-error");
@@ -155,6 +187,31 @@ void add_sources(CLI::App& command, FitCommandOptions& options) {
         ->type_name("E");
 }
 
+void add_air(CLI::App& command, FitCommandOptions& options) {
+    constexpr double kMost = 1e9;
+    command.add_flag("--air", options.air,
+                     "The ball was measured in air (default: as if in a vacuum)");
+    command.add_option("--density", options.density, "Density of the air in kg/m^3")
+        ->check(CLI::Range(1e-9, 1e4))
+        ->type_name("D")
+        ->capture_default_str();
+    command
+        .add_option("--ball", options.ball,
+                    "The ball that flies: a preset, whose radius, mass and drag coefficient are "
+                    "the defaults of the next three (default: none)")
+        ->type_name("PRESET");
+    command
+        .add_option("--radius", options.radius,
+                    "Radius of the ball in metres, or e.g. 20mm (default: --ball's)")
+        ->type_name("R");
+    command.add_option("--mass", options.mass, "Mass of the ball in kg (default: --ball's)")
+        ->check(CLI::Range(1e-9, kMost))
+        ->type_name("M");
+    command.add_option("--drag", options.drag, "Drag coefficient of the ball (default: --ball's)")
+        ->check(CLI::Range(1e-9, 1e3))
+        ->type_name("C");
+}
+
 }  // namespace
 
 void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
@@ -164,8 +221,10 @@ void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->footer(
         "  carom fit --drop 1.8 --rebound 1.29 --rebound 1.31\n"
         "  carom fit --drop 180cm --rebound 129cm -o line.svg\n"
-        "  carom fit --intervals 0.86,0.73,0.62\n");
+        "  carom fit --intervals 0.86,0.73,0.62\n"
+        "  carom fit --intervals 0.434,0.380,0.335 --air --ball table_tennis\n");
     add_sources(*command, *options);
+    add_air(*command, *options);
     constexpr double kMost = 1e9;
     command->add_option("--constant", options->constant, "K of Eq. 7 in 1/s")
         ->check(CLI::Range(1e-9, kMost))

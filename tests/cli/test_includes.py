@@ -36,9 +36,9 @@ ROOMS = {
         "integrate": {"law", "math"},
         "fixed": {"contact", "law", "record", "solve"},
         "world": {"collide", "contact", "law", "record"},
-        "group": {"record", "solve", "world"},
+        "group": {"contact", "record", "solve", "world"},
         "phase": {"contact", "group", "integrate", "law", "math", "record", "solve", "world"},
-        "exact": {"collide", "group", "math", "phase", "record", "solve", "world"},
+        "exact": {"collide", "group", "math", "phase", "record", "world"},
     },
     "render": {
         "gl": set(),

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "motion/curve.h"
-#include "sim/contact/contact.h"
 #include "sim/law/air_force.h"
 
 namespace carom {
