@@ -11,7 +11,10 @@
 #include "cli/interrupt.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
+#include "core/readable.h"
 #include "media/output_file.h"
+#include "media/wav.h"
+#include "report/bounce_onsets.h"
 #include "report/fit.h"
 #include "report/paper_data.h"
 #include "scene/catalogue.h"
@@ -25,7 +28,7 @@ namespace {
 /// Numbers with units arrive as text.
 struct FitCommandOptions {
     std::vector<std::string> drops, rebounds, intervals;
-    std::string csv;
+    std::string csv, wav;
     std::string rebound_to = "bottom";
     std::string diameter;
     std::string reading_error;
@@ -64,14 +67,31 @@ std::vector<MeasuredDrop> paired_drops(const FitCommandOptions& options) {
     return result;
 }
 
+/// The distances of the bounces in a recording.
+Measurements heard_bounces(const std::string& path) {
+    std::vector<double> at;
+    try {
+        at = bounce_onsets(read_wav(path));
+    } catch (const Failure& failure) {
+        const std::string text = failure.what();
+        if (text.starts_with(readable(path))) throw;
+        usage(fmt::format("{}: {}", readable(path), text));
+    }
+    Measurements result;
+    for (std::size_t i = 1; i < at.size(); ++i) result.intervals_s.push_back(at[i] - at[i - 1]);
+    return result;
+}
+
 Measurements measurements(const FitCommandOptions& options) {
     const bool heights = !options.drops.empty() || !options.rebounds.empty();
-    const int sources =
-        (heights ? 1 : 0) + (options.csv.empty() ? 0 : 1) + (options.intervals.empty() ? 0 : 1);
+    const int sources = (heights ? 1 : 0) + (options.csv.empty() ? 0 : 1) +
+                        (options.wav.empty() ? 0 : 1) + (options.intervals.empty() ? 0 : 1);
     if (sources != 1)
-        usage(sources == 0 ? "nothing measured: give --drop and --rebound, --csv or --intervals"
-                           : "give only one of --drop with --rebound, --csv and --intervals");
+        usage(sources == 0
+                  ? "nothing measured: give --drop and --rebound, --csv, --intervals or --wav"
+                  : "give only one of --drop with --rebound, --csv, --intervals and --wav");
     if (!options.csv.empty()) return read_measurements(options.csv);
+    if (!options.wav.empty()) return heard_bounces(options.wav);
     Measurements result;
     if (heights) result.drops = paired_drops(options);
     for (const std::string& text : options.intervals)
@@ -133,7 +153,7 @@ int fit(const FitCommandOptions& options, const Interrupt& interrupt) {
     if (!options.plot.empty()) {
         if (!plot_format_of(options.plot))
             usage(fmt::format("-o {}: a plot is a .svg, .png or .pdf file", options.plot));
-        require_distinct({{"-o", options.plot}}, {{"--csv", options.csv}});
+        require_distinct({{"-o", options.plot}}, {{"--csv", options.csv}, {"--wav", options.wav}});
         require_writable(options.plot, options.overwrite);
         require_gnuplot(interrupt.token());
     }
@@ -171,6 +191,11 @@ void add_sources(CLI::App& command, FitCommandOptions& options) {
     list("--intervals", options.intervals,
          "Times between successive bounces in order, in seconds, or e.g. 860ms,730ms", "T,...")
         ->delimiter(',');
+    command
+        .add_option("--wav", options.wav,
+                    "Recording of a ball that bounces: the times between its bounces (default: "
+                    "none)")
+        ->type_name("FILE");
     command
         .add_option("--rebound-to", options.rebound_to, "What of the ball a rebound is measured to")
         ->check(CLI::IsMember({"bottom", "top"}))
@@ -222,6 +247,7 @@ void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         "  carom fit --drop 1.8 --rebound 1.29 --rebound 1.31\n"
         "  carom fit --drop 180cm --rebound 129cm -o line.svg\n"
         "  carom fit --intervals 0.86,0.73,0.62\n"
+        "  carom fit --wav bounces.wav\n"
         "  carom fit --intervals 0.434,0.380,0.335 --air --ball table_tennis\n");
     add_sources(*command, *options);
     add_air(*command, *options);

@@ -334,5 +334,32 @@ TEST(Flight, FixedStepsConverge) {
     EXPECT_NEAR(errors[2] / errors[1], 0.5, 0.05);
 }
 
+/// A ball that spins beside a wall without moving: lift presses it on only once it falls.
+TEST(Flight, LiftPressesWhatTouchesWithoutSpeed) {
+    Scene scene = exact_scene(0.3, 0, kG);
+    scene.air = Air{.density = 9};
+    add_plane(scene, Vec3::UnitX(), 0);
+    Ball& ball = add_ball(scene, Vec3(0.03, 0, 0), Vec3::Zero(), 0.03);
+    ball.mass = 0.8;
+    ball.flight.drag = {Drag::Over::kNothing, 0, nullptr};
+    ball.flight.lift = {Lift::Over::kSpinRatio, 0, nullptr};
+    for (const double side : {1.0, -1.0}) {
+        ball.spin = Vec3(0, side * 150, 0);
+        const Motion motion = run(scene, 0.2).motion;
+        double least = 1, most = 0;
+        for (int i = 0; i <= 200; ++i) {
+            const double gap = motion.balls[0].at(1e-3 * i).position.x() - 0.03;
+            least = std::min(least, gap);
+            most = std::max(most, gap);
+        }
+        EXPECT_GE(least, -1e-13);
+        if (side > 0) {
+            EXPECT_LT(most, 1e-13);  // held by the wall all along
+        } else {
+            EXPECT_GT(most, 1e-5);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace carom::testing
