@@ -48,7 +48,7 @@ class PngEncoder {
 
 /// Any PNG (grey, palette, 1 to 16 bits, transparent, interlaced) in the depth that it has: 8 bits
 /// for up to 8, else 16; premultiplied. Samples are taken as sRGB, unless a gAMA chunk without an
-/// sRGB or iCCP chunk beside it says otherwise by more than 5 %: then v becomes the sRGB value of
+/// sRGB or iCCP chunk beside it says otherwise by more than 15 %: then v becomes the sRGB value of
 /// the light v^(1 / gAMA) (PNG, third edition, 12.13), rounded. Colour profiles and chromaticities
 /// are not applied. Throws Failure(kInput) with libpng's text when the file is missing, damaged, no
 /// PNG, or larger than 100 megapixels.

@@ -69,8 +69,9 @@ void set_reading_transforms(png_structp png, bool deep) {
 
 /// The exponent of the file's gAMA chunk, where it counts and says something else than sRGB.
 std::optional<double> other_gamma(png_structp png, png_infop info) {
-    // What sRGB files carry for programs that know no more, and what counts as that.
-    constexpr double kOfSrgb = 0.45455, kNear = 0.05;
+    // What sRGB files carry for programs that know no more, and what counts as that: FFmpeg writes
+    // 0.51 beside a film's frames, BT.709's curve, whose code values are those of sRGB pictures.
+    constexpr double kOfSrgb = 0.45455, kNear = 0.15;
     double gamma = 0;
     if (png_get_valid(png, info, PNG_INFO_sRGB | PNG_INFO_iCCP) != 0) return std::nullopt;
     if (png_get_gAMA(png, info, &gamma) == 0 || !(gamma > 0)) return std::nullopt;
