@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/against.h"
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/encoding_options.h"
@@ -276,6 +277,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
+    add_backend_option(*command);
     add_output_options(*command, options->common);
     add_talk_options(*command, options->common);
     command->callback([options, &run, &interrupt] {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/against.h"
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/distinct_files.h"
@@ -163,6 +164,7 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
+    add_backend_option(*command);
     add_output_options(*command, options->common);
     add_progress_options(*command, options->common);
     command->callback([options, &run, &interrupt] {
