@@ -16,7 +16,8 @@ std::string text(unsigned version) {
 
 std::map<std::string, std::string> libav_versions() {
     try {
-        return {{"libavcodec", text(libav().avcodec_version())},
+        return {{"ffmpeg", libav().av_version_info()},
+                {"libavcodec", text(libav().avcodec_version())},
                 {"libavformat", text(libav().avformat_version())},
                 {"libswscale", text(libav().swscale_version())}};
     } catch (const Failure& failure) {
@@ -30,6 +31,18 @@ std::map<std::string, std::string> media_versions() {
     std::map<std::string, std::string> versions = libav_versions();
     versions["libpng"] = PNG_LIBPNG_VER_STRING;
     return versions;
+}
+
+std::vector<FoundCodec> found_codecs() {
+    std::vector<FoundCodec> found;
+    try {
+        for (const FilmCodec& codec : film_codecs())
+            found.push_back(
+                {&codec, libav().avcodec_find_encoder_by_name(codec.encoder) != nullptr});
+    } catch (const Failure&) {
+        // media_versions() says why.
+    }
+    return found;
 }
 
 }  // namespace carom
