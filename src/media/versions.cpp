@@ -5,6 +5,7 @@
 
 #include "core/failure.h"
 #include "media/libav_table.h"
+#include "media/openexr_table.h"
 
 namespace carom {
 
@@ -27,9 +28,25 @@ std::map<std::string, std::string> libav_versions() {
 
 }  // namespace
 
+namespace {
+
+std::string openexr_version() {
+    try {
+        int major = 0, minor = 0, patch = 0;
+        const char* extra = nullptr;
+        openexr().exr_get_library_version(&major, &minor, &patch, &extra);
+        return fmt::format("{}.{}.{}", major, minor, patch);
+    } catch (const Failure& failure) {
+        return fmt::format("none: {}", failure.what());
+    }
+}
+
+}  // namespace
+
 std::map<std::string, std::string> media_versions() {
     std::map<std::string, std::string> versions = libav_versions();
     versions["libpng"] = PNG_LIBPNG_VER_STRING;
+    versions["openexr"] = openexr_version();
     return versions;
 }
 

@@ -73,6 +73,8 @@ class Info(FaultyTest):
         self.assertRegex(result.stdout, rb"libpng +\d")
         self.assertRegex(result.stdout, rb"gnuplot +missing: .*gnuplot-nox")
         self.assertEqual({}, self.facts(FAIL_LIBRARY="avcodec")["codecs"])
+        self.assertRegex(self.facts()["openexr"], r"^\d+\.\d+\.\d+$")
+        self.assertRegex(self.facts(FAIL_LIBRARY="OpenEXR")["openexr"], "none: EXR files need OpenEXR .package libopenexr")
 
 
 if __name__ == "__main__":
