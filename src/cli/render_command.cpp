@@ -215,9 +215,9 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
                        {{"SCENE", options.scene}, {"--against", options.against.scene}});
     require_stats_writable(options.common);
     if (options.layers.wanted()) {
-        options.layers.kinds();
         const std::vector<OutputRequest> outputs = requests(options);
         frames_for_layers(outputs);
+        require_layer_libraries(options.layers.kinds());
     }
 
     std::optional<FilmScenes> scenes;

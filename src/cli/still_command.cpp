@@ -72,6 +72,7 @@ void check_layers(const StillOptions& options) {
         require_writable(layer_path(options.output, layer_kind_info(kind)),
                          options.common.overwrite);
     require_writable(layer_index_beside(options.output), options.common.overwrite);
+    require_layer_libraries(kinds);
 }
 
 void write_layers(const StillOptions& options, const Scene& scene, const Motion& motion,
@@ -106,6 +107,19 @@ std::vector<double> instants(const StillOptions& options) {
     std::vector<double> result;
     for (double k = steps; k >= 0; --k) result.push_back(std::max(0.0, options.time - k * step));
     return result;
+}
+
+PainterOptions painter_options(const StillOptions& options, const Film& film,
+                               const SecondRun* second) {
+    require_one_picture(options.layers, second);
+    PainterOptions painting;
+    painting.width_px = film.width_px;
+    painting.height_px = film.height_px;
+    painting.second = second;
+    painting.few_pictures = draws_sooner_than_it_compiles(painting.width_px, painting.height_px);
+    if (painting.few_pictures) prefer_quick_compile();
+    painting.only_at = options.time;
+    return painting;
 }
 
 int still(const StillOptions& options, const Interrupt& interrupt) {
@@ -145,14 +159,8 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
         throw Failure(FailureKind::kInput, fmt::format("--time {}: the motion lasts from 0 to {} s",
                                                        options.time, duration));
 
-    PainterOptions painting;
-    painting.width_px = scene->film.width_px;
-    painting.height_px = scene->film.height_px;
-    painting.second = second ? &second->run : nullptr;
-    require_one_picture(options.layers, painting.second);
-    painting.few_pictures = draws_sooner_than_it_compiles(painting.width_px, painting.height_px);
-    if (painting.few_pictures) prefer_quick_compile();
-    painting.only_at = options.time;
+    const PainterOptions painting =
+        painter_options(options, scene->film, second ? &second->run : nullptr);
     Painter painter(*scene, simulated.motion, painting);
     Image picture;
     painter.paint_strobe(instants(options), picture);

@@ -8,15 +8,14 @@
 
 #include "core/check.h"
 #include "core/failure.h"
+#include "media/exr_zip.h"
 #include "media/openexr_table.h"
 
 namespace carom {
 
 namespace {
 
-constexpr int kTilePx = 64;
-/// Of zlib: higher ones take three times as long for a tenth less.
-constexpr int kZipLevel = 1;
+constexpr int kTilePx = 32;
 
 void require(exr_result_t result, const char* attempt) {
     if (result != EXR_ERR_SUCCESS)
@@ -41,15 +40,18 @@ int64_t carom_exr_write(exr_const_context_t, void* user, const void* bytes, uint
     return static_cast<int64_t>(size);
 }
 
+/// Where the pipeline puts a tile.
+struct Packed {
+    ExrZip* zip;
+    std::string* chunk;
+};
+
 /// Keeps a chunk where the pipeline would write it.
 exr_result_t carom_exr_keep(exr_encode_pipeline_t* pipeline) {
-    auto* kept = static_cast<std::string*>(pipeline->encoding_user_data);
-    const bool compressed = pipeline->compressed_bytes > 0;
-    const void* bytes = compressed ? pipeline->compressed_buffer : pipeline->packed_buffer;
-    const std::size_t size =
-        compressed ? pipeline->compressed_bytes : static_cast<std::size_t>(pipeline->packed_bytes);
+    const auto* packed = static_cast<Packed*>(pipeline->encoding_user_data);
     try {
-        kept->assign(static_cast<const char*>(bytes), size);
+        packed->zip->compress(static_cast<const std::uint8_t*>(pipeline->packed_buffer),
+                              static_cast<std::size_t>(pipeline->packed_bytes), *packed->chunk);
     } catch (...) {
         return EXR_ERR_OUT_OF_MEMORY;
     }
@@ -96,8 +98,6 @@ class ExrFile {
         require(openexr().exr_initialize_required_attr_simple(context_, part, image.width_px,
                                                               image.height_px, EXR_COMPRESSION_ZIP),
                 "setting the size");
-        require(openexr().exr_set_zip_compression_level(context_, part, kZipLevel),
-                "setting the compression");
         require(openexr().exr_set_tile_descriptor(context_, part, kTilePx, kTilePx,
                                                   EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN),
                 "setting the tiles");
@@ -116,8 +116,8 @@ class ExrFile {
 class TilePipeline {
   public:
     TilePipeline(const ExrFile& file, const FloatImage& image,
-                 const std::vector<std::string>& names)
-        : context_(file.context()), image_(image), names_(names) {}
+                 const std::vector<std::string>& names, ExrZip& zip)
+        : context_(file.context()), image_(image), names_(names), zip_(zip) {}
     ~TilePipeline() {
         if (begun_) openexr().exr_encoding_destroy(context_, &pipeline_);
     }
@@ -136,9 +136,11 @@ class TilePipeline {
             begun_ = true;
             require(openexr().exr_encoding_choose_default_routines(context_, 0, &pipeline_),
                     "choosing how to encode");
+            pipeline_.compress_fn = nullptr;
             pipeline_.write_fn = carom_exr_keep;
         }
-        pipeline_.encoding_user_data = &chunk;
+        Packed packed{&zip_, &chunk};
+        pipeline_.encoding_user_data = &packed;
         require(openexr().exr_encoding_run(context_, 0, &pipeline_), "encoding a tile");
     }
 
@@ -162,13 +164,17 @@ class TilePipeline {
     exr_context_t context_;
     const FloatImage& image_;
     const std::vector<std::string>& names_;
+    ExrZip& zip_;
     bool begun_ = false;
     exr_encode_pipeline_t pipeline_ = EXR_ENCODE_PIPELINE_INITIALIZER;
 };
 
 }  // namespace
 
-void require_openexr() { openexr(); }
+void require_openexr() {
+    openexr();
+    const ExrZip its_own;
+}
 
 class ExrEncoder::Impl {
   public:
@@ -181,7 +187,7 @@ class ExrEncoder::Impl {
         chunks_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
         ExrFile file(image, names_);
         {
-            TilePipeline pipeline(file, image, names_);
+            TilePipeline pipeline(file, image, names_, zip_);
             std::size_t i = 0;
             for (int row = 0; row < rows; ++row)
                 for (int column = 0; column < columns; ++column, ++i) {
@@ -200,6 +206,7 @@ class ExrEncoder::Impl {
 
   private:
     std::vector<std::string> names_;
+    ExrZip zip_;
     std::vector<std::string> chunks_;  ///< of the picture before, tile by tile
 };
 

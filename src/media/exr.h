@@ -11,8 +11,8 @@
 
 namespace carom {
 
-/// Refuses the work before it is begun: Failure(kRun) that names the package where OpenEXR is
-/// missing.
+/// Refuses the work before it is begun: Failure(kRun) that names the package where a
+/// library is missing.
 void require_openexr();
 
 /// Pictures of one size and kind, one after the other, each as the bytes of an EXR file: tiles of

@@ -12,10 +12,9 @@ namespace carom {
 #define CAROM_OPENEXR_FUNCTIONS(X)                                                                \
     X(exr_add_channel) X(exr_add_part) X(exr_encoding_choose_default_routines)                    \
     X(exr_encoding_destroy) X(exr_encoding_initialize) X(exr_encoding_run)                        \
-    X(exr_encoding_update) X(exr_finish) X(exr_get_default_error_message) X(exr_get_library_version) \
-    X(exr_initialize_required_attr_simple) X(exr_set_tile_descriptor)                             \
-    X(exr_set_zip_compression_level) X(exr_start_write) X(exr_write_header)                       \
-    X(exr_write_tile_chunk) X(exr_write_tile_chunk_info)
+    X(exr_encoding_update) X(exr_finish) X(exr_get_default_error_message)                         \
+    X(exr_get_library_version) X(exr_initialize_required_attr_simple) X(exr_set_tile_descriptor)  \
+    X(exr_start_write) X(exr_write_header) X(exr_write_tile_chunk) X(exr_write_tile_chunk_info)
 // clang-format on
 
 /// Each function under its own name.

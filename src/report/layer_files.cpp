@@ -30,6 +30,11 @@ LayerInstants instants_of_still(const Film& film, double t, double duration) {
     return instants;
 }
 
+void require_layer_libraries(const std::vector<LayerKind>& kinds) {
+    for (const LayerKind kind : kinds)
+        if (!layer_kind_info(kind).channels.empty()) require_openexr();
+}
+
 std::string layer_path(const std::string& picture_path, const LayerKindInfo& kind) {
     std::filesystem::path path(picture_path);
     path.replace_extension();
@@ -48,11 +53,13 @@ class LayerFiles::Impl {
           existing_(existing),
           durability_(durability),
           painter_(scene, motion, settings) {
+        require_layer_libraries(settings.kinds);
         for (const LayerKind kind : settings.kinds) {
-            const LayerKindInfo& info = layer_kind_info(kind);
-            if (!info.channels.empty()) require_openexr();
-            encoders_.emplace_back(
-                std::vector<std::string>(info.channels.begin(), info.channels.end()));
+            const auto& names = layer_kind_info(kind).channels;
+            encoders_.push_back(names.empty()
+                                    ? nullptr
+                                    : std::make_unique<ExrEncoder>(
+                                          std::vector<std::string>(names.begin(), names.end())));
         }
     }
 
@@ -62,7 +69,7 @@ class LayerFiles::Impl {
         painter_.paint(instants.time, instants.next, instants.previous);
         others_cpu_s_ += in_parallel(static_cast<int>(settings_.kinds.size()), [&](int place) {
             const auto i = static_cast<std::size_t>(place);
-            write_layer(settings_.kinds[i], encoders_[i], picture_path);
+            write_layer(settings_.kinds[i], encoders_[i].get(), picture_path);
         });
         frames_.push_back(
             layer_index_frame(scene_, motion_, settings_, painter_, picture_path, frame, instants));
@@ -76,13 +83,13 @@ class LayerFiles::Impl {
     double cpu_s() const { return own_cpu_s_ + others_cpu_s_ + painter_.others_cpu_s(); }
 
   private:
-    void write_layer(LayerKind kind, ExrEncoder& encoder, const std::string& picture_path) {
+    void write_layer(LayerKind kind, ExrEncoder* encoder, const std::string& picture_path) {
         const LayerKindInfo& info = layer_kind_info(kind);
         const std::string bytes =
-            info.channels.empty()
+            encoder == nullptr
                 ? encode_gray16(settings_.width_px, settings_.height_px, painter_.ids())
-                : encoder.encode(painter_.image(kind),
-                                 [this](const PixelRect& rect) { return painter_.changed(rect); });
+                : encoder->encode(painter_.image(kind),
+                                  [this](const PixelRect& rect) { return painter_.changed(rect); });
         write_text_file(layer_path(picture_path, info), bytes, durability_, existing_);
     }
 
@@ -93,7 +100,7 @@ class LayerFiles::Impl {
     Existing existing_;
     Durability durability_;
     LayerPainter painter_;
-    std::vector<ExrEncoder> encoders_;  ///< of each kind
+    std::vector<std::unique_ptr<ExrEncoder>> encoders_;  ///< of each kind; none for ids
     std::vector<std::string> frames_;
     double own_cpu_s_ = 0, others_cpu_s_ = 0;
 };

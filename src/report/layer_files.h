@@ -23,13 +23,16 @@ struct LayerInstants {
 LayerInstants instants_of_frame(const Film& film, std::int64_t k, std::int64_t count);
 LayerInstants instants_of_still(const Film& film, double t, double duration);
 
+/// Refuses before the work what cannot be written: Failure(kRun) that names the package.
+void require_layer_libraries(const std::vector<LayerKind>& kinds);
+
 /// "out/frame_00012.png" and depth: "out/frame_00012.depth.exr".
 std::string layer_path(const std::string& picture_path, const LayerKindInfo& kind);
 
 class LayerFiles {
   public:
-    /// `index_path`: of layers.json. `scene` and `motion` must outlive it. Failure(kRun) where
-    /// OpenEXR is needed and missing; what LayerPainter fails with.
+    /// `index_path`: of layers.json. `scene` and `motion` must outlive it. Fails as
+    /// require_layer_libraries() and LayerPainter do.
     LayerFiles(const Scene& scene, const Motion& motion, const LayerSettings& settings,
                std::string index_path, Existing existing, Durability durability);
     ~LayerFiles();

@@ -71,6 +71,7 @@ LIBRARY_HOME = {
     r"png\.h": {"media"},
     r"lib(av|sw)\w+/": {"media"},
     r"(?i)openexr": {"media"},
+    r"libdeflate\.h": {"media"},
     r"CLI/": {"cli"},
     r"xxhash\.h": {"motion"},
 }

@@ -315,9 +315,11 @@ class Layers(FaultyTest):
 
     def test_without_openexr_only_ids_can_be_had(self):
         still = ["still", self.write("layers.yaml", SCENE), "--time", "0", "-o", self.folder / "a.png", "--layers"]
-        result = self.short_of([*still, "depth"], FAIL_LIBRARY="OpenEXR")
-        self.assertEqual(1, result.returncode)
-        self.assertRegex(result.stderr, b"EXR files need OpenEXR .package libopenexr")
+        for library, package in (("OpenEXR", b"libopenexr"), ("deflate", b"libdeflate0")):
+            result = self.short_of([*still, "depth"], FAIL_LIBRARY=library)
+            self.assertEqual(1, result.returncode)
+            self.assertRegex(result.stderr, b"EXR files need .*package " + package)
+            self.assertFalse((self.folder / "a.png").exists())
         self.assertEqual(0, self.short_of([*still, "segmentation"], FAIL_LIBRARY="OpenEXR").returncode)
 
     def test_every_shape_of_the_gallery(self):
