@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
@@ -251,6 +252,7 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         add_limits(*action, *options);
         add_scene_options(*action, options->common);
         add_picture_options(*action, options->common);
+        add_backend_option(*action);
         add_progress_options(*action, options->common);
         action->callback([options, function, &run, &interrupt] {
             run = [options, function, &interrupt] { return function(*options, interrupt); };

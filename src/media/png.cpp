@@ -10,54 +10,13 @@
 #include "core/check.h"
 #include "core/failure.h"
 #include "media/film_text.h"
-#include "media/png_guard.h"
 #include "media/png_rows.h"
+#include "media/png_writer.h"
 #include "media/straight_alpha.h"
 
 namespace carom {
 
 namespace {
-
-extern "C" {
-void carom_png_append(png_structp png, png_bytep data, png_size_t size) {
-    bool full = false;
-    try {
-        static_cast<std::string*>(png_get_io_ptr(png))
-            ->append(reinterpret_cast<const char*>(data), size);
-    } catch (...) {
-        full = true;  // an exception must not pass through C
-    }
-    if (full) png_error(png, "out of memory");
-}
-}
-
-/// libpng's writer, and the bytes that it has made.
-class PngWriter {
-  public:
-    PngWriter() {
-        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &text_, carom_png_error,
-                                       carom_png_warning);
-        if (png_ != nullptr) info_ = png_create_info_struct(png_);
-        if (info_ == nullptr) {
-            png_destroy_write_struct(&png_, nullptr);
-            throw std::bad_alloc();
-        }
-    }
-    ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
-    PngWriter(const PngWriter&) = delete;
-    PngWriter& operator=(const PngWriter&) = delete;
-
-    png_structp png() { return png_; }
-    png_infop info() { return info_; }
-    const char* text() const { return text_.text.data(); }
-    std::string& bytes() { return bytes_; }
-
-  private:
-    PngText text_;
-    std::string bytes_;
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-};
 
 bool is_opaque(const Image& image) {
     for (std::size_t i = 3; i < image.bgra.size(); i += 4)

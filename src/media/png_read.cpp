@@ -13,7 +13,7 @@
 
 #include "core/failure.h"
 #include "media/png.h"
-#include "media/png_guard.h"
+#include "media/png_writer.h"
 #include "media/straight_alpha.h"
 
 namespace carom {

@@ -269,6 +269,16 @@ class Rest(ProgramTest):
         # The first step tells what the next one would cost; with World and with QuickStep.
         self.assertEqual([0, 2], [text.count("left out: it would take") for text in rows])
 
+    def test_the_back_end_of_goldens_and_figures(self):
+        options = [self.scene, "--dir", self.folder / "G", "--time", 0, "--size", "64x36"]
+        self.assert_exit(0, run("golden", "update", *options))
+        self.assert_exit(0, run("golden", "check", *options, "--backend", "osmesa", "--tolerance", 0))
+        for name, backend in (("A", ["--backend", "osmesa"]), ("B", [])):
+            self.assert_exit(0, run("figures", "-o", self.folder / name, "--only", "figure9-montage", *backend))
+        a, b = (self.folder / name / "figure9-montage.png" for name in "AB")
+        self.assert_exit(0, run("compare", a, b))
+        self.assert_exit(2, run("figures", "-o", self.folder / "C", "--backend", "osmessa"))
+
     def test_the_reference_is_the_one_of_the_documents(self):
         document = (SOURCE / "docs" / "scene.md").read_text()
         kept = document.split("<!-- reference:begin -->")[1].split("<!-- reference:end -->")[0]
