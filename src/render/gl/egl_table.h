@@ -13,8 +13,9 @@ namespace carom {
 #define CAROM_EGL_FUNCTIONS(X)                                                           \
     X(eglBindAPI)                                                                        \
     X(eglCreateContext)                                                                  \
-    X(eglDestroyContext) X(eglGetCurrentContext) X(eglGetError) X(eglGetPlatformDisplay) \
-        X(eglGetProcAddress) X(eglInitialize) X(eglMakeCurrent) X(eglQueryString)
+    X(eglDestroyContext)                                                                 \
+    X(eglGetCurrentContext) X(eglGetError) X(eglGetPlatformDisplay) X(eglGetProcAddress) \
+        X(eglInitialize) X(eglMakeCurrent) X(eglQueryString)
 
 /// Each function under its own name.
 struct Egl {
