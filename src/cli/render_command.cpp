@@ -121,9 +121,9 @@ void Filming::write_layers(std::int64_t frame, const Film& film) {
 }
 
 void Filming::film(Painter& painter, const Film& film) {
-    // PNGs are whole or not there; half a film must be closed to be one.
+    // PNGs are whole or not there; half a film must be closed to be one, and layers want an index.
     std::optional<KeptWork> kept;
-    if (has_film()) kept.emplace(interrupt_, [this] { keep_partial(); });
+    if (has_film() || layers_) kept.emplace(interrupt_, [this] { keep_partial(); });
     draw_all(painter, film, kept ? &*kept : nullptr);
     if (done_ < frames_.size()) {
         keep_partial();
@@ -146,7 +146,10 @@ void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
     if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
     FrameRanges::Iterator frame = frames_.begin();
     hooks.written = [&](std::int64_t done) {
-        if (layers_) write_layers(*frame, film);
+        if (layers_) {
+            kept->step([&] { write_layers(*frame, film); });
+            layers_->add_to_index();
+        }
         ++frame;
         done_ = done;
         progress.update(static_cast<double>(done));
