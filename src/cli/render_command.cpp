@@ -18,6 +18,7 @@
 #include "cli/kept_work.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/resume.h"
 #include "cli/shown_simulation.h"
 #include "cli/standard_error.h"
 #include "cli/standard_output.h"
@@ -40,10 +41,14 @@ struct RenderOptions {
     std::string format = "mp4";
     std::string frames;
     std::string chunk;
+    bool resume = false;
     bool dry_run = false;
     AgainstOptions against;
     CommonOptions common;
     EncodingOptions encoding;
+
+    /// --resume replaces what is not as it should be.
+    bool replaces() const { return common.overwrite || resume; }
 };
 
 FrameRanges wanted_frames(const RenderOptions& options, const Film& film, double duration) {
@@ -67,11 +72,11 @@ class Filming {
     Filming(const RenderOptions& options, const Interrupt& interrupt, const FrameRanges& frames)
         : options_(options), interrupt_(interrupt), frames_(frames) {}
 
-    void open(const Scene& scene) {
+    void open(const FilmSource& source) {
         EncodingOptions encoding = options_.encoding;
-        encoding.existing = options_.common.existing();
+        encoding.existing = existing_of(options_.replaces());
         for (const OutputRequest& output : requests(options_))
-            sinks_.push_back(open_output(output, scene, encoding));
+            sinks_.push_back(open_output(output, source, encoding));
     }
 
     /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
@@ -112,7 +117,8 @@ bool Filming::has_film() const {
 }
 
 void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
-    Progress progress(options_.common.progress_mode(), interrupt_, "frames", frames_.size());
+    Progress progress(options_.common.progress_mode(), interrupt_, kFilming, frames_.size(),
+                      1 / film.fps.per_second());
     FilmingHooks hooks;
     hooks.stops = [this] { return interrupt_.requested(); };
     if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
@@ -151,8 +157,8 @@ std::string plan_text(const RenderOptions& options, const Scene& scene, const Mo
 bool is_done_early(const RenderOptions& options, const Scene& scene) {
     if (!scene.simulation.duration) return false;
     const FrameRanges frames = wanted_frames(options, scene.film, *scene.simulation.duration);
-    check_outputs(requests(options), frames, options.common.overwrite);
-    require_room(requests(options), scene, options.encoding, frames.size());
+    check_outputs(requests(options), frames, options.replaces());
+    if (!options.resume) require_room(requests(options), scene, options.encoding, frames.size());
     return frames.empty() && !options.dry_run;
 }
 
@@ -168,11 +174,37 @@ void require_second_untouched(const RenderOptions& options, const std::string& s
                        {{"against", second_scene}});
 }
 
+/// Draws and writes the source's frames.
+void film(const RenderOptions& options, const Interrupt& interrupt, const FilmSource& source,
+          const Motion& motion, const SecondRun* second, Stats& stats) {
+    const Film& film = source.scene.film;
+    Painter painter(source.scene, motion, {film.width_px, film.height_px, second});
+    if (options.common.verbose) say("carom: {}\n", painter.renderer());
+    Filming filming(options, interrupt, source.frames);
+    filming.open(source);
+    filming.film(painter, film);
+    filming.add_to(stats);
+    stats.add_painter(painter);
+}
+
+void say_end(const Stats& stats) {
+    if (stats.frames == 0) {
+        say("carom: all {} frames are there\n", stats.frames_kept);
+        return;
+    }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - stats.start;
+    const std::string kept =
+        stats.frames_kept > 0 ? fmt::format(", {} were there", stats.frames_kept) : "";
+    say("carom: {} frames in {:.1f} s ({:.0f} frames/s){}\n", stats.frames, wall.count(),
+        static_cast<double>(stats.frames) / wall.count(), kept);
+}
+
 int render(const RenderOptions& options, const Interrupt& interrupt) {
     Stats stats;
     check_output_names(requests(options), {{"--stats", options.common.stats_path}},
                        {{"SCENE", options.scene}, {"--against", options.against.scene}});
     require_stats_writable(options.common);
+    if (options.resume) require_resumable(requests(options));
 
     std::optional<FilmScenes> scenes;
     {
@@ -199,32 +231,28 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     stats.add_warnings(simulated.report, options.common.quiet);
     stats.add_verdict(*scene, motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
-    const FrameRanges frames = wanted_frames(options, scene->film, motion.duration);
-    check_outputs(requests(options), frames, options.common.overwrite);
-    require_room(requests(options), *scene, options.encoding, frames.size());
+    FilmSource source{*scene, scenes->second ? &*scenes->second : nullptr, scenes->view,
+                      wanted_frames(options, scene->film, motion.duration),
+                      frame_count(scene->film, motion.duration)};
+    const FrameRanges wanted = source.frames;
+    check_outputs(requests(options), wanted, options.replaces());
+    if (options.resume)
+        source.frames = missing_frames(requests(options), source, options.encoding, interrupt);
+    require_room(requests(options), *scene, options.encoding, source.frames.size());
     if (options.dry_run) {
-        write_standard_output(plan_text(options, *scene, motion, frames));
+        write_standard_output(plan_text(options, *scene, motion, source.frames));
         return kExitDone;
     }
-    if (frames.empty()) return nothing_to_do(options);
+    if (wanted.empty()) return nothing_to_do(options);
+    if (options.resume) remove_leftovers(requests(options), wanted);
 
-    Painter painter(*scene, motion,
-                    {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
-    if (options.common.verbose) say("carom: {}\n", painter.renderer());
-    Filming filming(options, interrupt, frames);
-    filming.open(*scene);
-    filming.film(painter, scene->film);
-    stats.frames = frames.size();
-    filming.add_to(stats);
-    stats.add_painter(painter);
-
+    stats.frames = source.frames.size();
+    stats.frames_kept = wanted.size() - stats.frames;
+    if (stats.frames > 0)
+        film(options, interrupt, source, motion, second ? &second->run : nullptr, stats);
     if (!options.common.stats_path.empty())
         write_stats(options.common, stats_json(stats, &simulated));
-    if (!options.common.quiet) {
-        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - stats.start;
-        say("carom: {} frames in {:.1f} s ({:.0f} frames/s)\n", stats.frames, wall.count(),
-            static_cast<double>(stats.frames) / wall.count());
-    }
+    if (!options.common.quiet) say_end(stats);
     return kExitDone;
 }
 
@@ -264,9 +292,13 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command
         ->add_option(
             "--chunk", options->chunk,
-            "Part I of N equal ones of the frames, or auto in a Slurm array (default: all)")
+            "Part I of N equal ones of the frames, or auto in an array of Slurm, Grid Engine or "
+            "AWS Batch (default: all)")
         ->type_name("I/N")
         ->excludes(frames);
+    command->add_flag("--resume", options->resume,
+                      "Of PNG frames, draw those that are missing, damaged or made from another "
+                      "scene, other settings or by another version, and keep the others");
     command->add_flag("--dry-run", options->dry_run, "Say what would be filmed, draw nothing");
     command
         ->add_option("--fps", options->common.fps,

@@ -57,7 +57,7 @@ void write_results(const SimulateOptions& options, const Motion& motion, const F
                    const Interrupt& interrupt) {
     const Existing existing = options.common.existing();
     write_csv(options.output, existing, interrupt, [&](const TextSink& sink) {
-        Progress progress(options.common.progress_mode(), interrupt, "s written",
+        Progress progress(options.common.progress_mode(), interrupt, kWritingRows,
                           std::optional(motion.duration));
         write_motion_csv(motion, rate.numerator, rate.denominator, sink,
                          [&](double time) { progress.update(time); });

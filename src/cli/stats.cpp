@@ -115,6 +115,7 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
                      {"encode", stats.sinks.encode_cpu_s},
                      {"write", stats.sinks.write_cpu_s}};
     json["frames"] = stats.frames;
+    if (stats.frames_kept > 0) json["frames_kept"] = stats.frames_kept;
     json["steps"] = result != nullptr ? result->report.steps : 0;
     json["impacts"] = result != nullptr ? result->report.impacts : 0;
     std::map<std::string, Effect> effects = stats.effects;
