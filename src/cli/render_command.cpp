@@ -29,6 +29,7 @@
 #include "media/output_file.h"
 #include "render/painter.h"
 #include "report/filming.h"
+#include "report/growing_motion.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -69,18 +70,20 @@ std::vector<OutputRequest> requests(const RenderOptions& options) {
 /// A film on its way into all its outputs.
 class Filming {
   public:
-    Filming(const RenderOptions& options, const Interrupt& interrupt, const FrameRanges& frames)
-        : options_(options), interrupt_(interrupt), frames_(frames) {}
+    /// `growing` is null where the motion is there.
+    Filming(const RenderOptions& options, const Interrupt& interrupt, const FilmSource& source,
+            GrowingMotion* growing)
+        : options_(options), interrupt_(interrupt), source_(source), growing_(growing) {}
 
-    void open(const FilmSource& source) {
+    void open() {
         EncodingOptions encoding = options_.encoding;
         encoding.existing = existing_of(options_.replaces());
         for (const OutputRequest& output : requests(options_))
-            sinks_.push_back(open_output(output, source, encoding));
+            sinks_.push_back(open_output(output, source_, encoding));
     }
 
     /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
-    void film(Painter& painter, const Film& film);
+    void film(Painter& painter);
 
     void add_to(Stats& stats) const {
         for (const auto& sink : sinks_) stats.add_sink(sink->times());
@@ -88,22 +91,27 @@ class Filming {
 
   private:
     bool has_film() const;
-    void draw_all(Painter& painter, const Film& film, KeptWork* kept);
+    void draw_all(Painter& painter, KeptWork* kept);
     void keep_partial() const;
 
     const RenderOptions& options_;
     const Interrupt& interrupt_;
-    const FrameRanges& frames_;
+    const FilmSource& source_;
+    GrowingMotion* growing_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::int64_t done_ = 0;
 };
 
-void Filming::film(Painter& painter, const Film& film) {
+void Filming::film(Painter& painter) {
     // PNGs are whole or not there; half a film must be closed to be one.
     std::optional<KeptWork> kept;
     if (has_film()) kept.emplace(interrupt_, [this] { keep_partial(); });
-    draw_all(painter, film, kept ? &*kept : nullptr);
-    if (done_ < frames_.size()) {
+    try {
+        draw_all(painter, kept ? &*kept : nullptr);
+    } catch (const Failure&) {
+        if (!interrupt_.requested()) throw;  // else it is the simulation that has stopped
+    }
+    if (done_ < source_.frames.size()) {
         keep_partial();
         throw Interrupted{};
     }
@@ -116,22 +124,28 @@ bool Filming::has_film() const {
                        [](const OutputRequest& output) { return output.is_film(); });
 }
 
-void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
-    Progress progress(options_.common.progress_mode(), interrupt_, kFilming, frames_.size(),
+void Filming::draw_all(Painter& painter, KeptWork* kept) {
+    const Film& film = source_.scene.film;
+    Progress progress(options_.common.progress_mode(), interrupt_, kFilming, source_.frames.size(),
                       1 / film.fps.per_second());
     FilmingHooks hooks;
     hooks.stops = [this] { return interrupt_.requested(); };
+    if (growing_ != nullptr)
+        hooks.await = [&](double t) {
+            growing_->wait_for(needed_for_picture(source_.scene, t),
+                               [&] { progress.update(static_cast<double>(done_)); });
+        };
     if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
     hooks.written = [&](std::int64_t done) {
         done_ = done;
         progress.update(static_cast<double>(done));
     };
-    film_frames(painter, film, frames_, sinks_, hooks);
+    film_frames(painter, film, source_.frames, sinks_, hooks);
 }
 
 /// Keeps what is playable and says how far it got.
 void Filming::keep_partial() const {
-    interrupt_.reached(fmt::format("after {} of {} frames", done_, frames_.size()));
+    interrupt_.reached(fmt::format("after {} of {} frames", done_, source_.frames.size()));
     interrupt_.say();
     for (const auto& sink : sinks_)
         if (const std::string kept = sink->keep_partial(); !kept.empty())
@@ -174,17 +188,26 @@ void require_second_untouched(const RenderOptions& options, const std::string& s
                        {{"against", second_scene}});
 }
 
-/// Draws and writes the source's frames.
+/// Draws and writes the source's frames. `growing` is null where the motion is there.
 void film(const RenderOptions& options, const Interrupt& interrupt, const FilmSource& source,
-          const Motion& motion, const SecondRun* second, Stats& stats) {
+          const Motion& motion, GrowingMotion* growing, const SecondRun* second, Stats& stats) {
     const Film& film = source.scene.film;
+    if (growing != nullptr) growing->wait_for(needed_for_picture(source.scene, film.start));
     Painter painter(source.scene, motion, {film.width_px, film.height_px, second});
     if (options.common.verbose) say("carom: {}\n", painter.renderer());
-    Filming filming(options, interrupt, source.frames);
-    filming.open(source);
-    filming.film(painter, film);
+    Filming filming(options, interrupt, source, growing);
+    filming.open();
+    filming.film(painter);
     filming.add_to(stats);
     stats.add_painter(painter);
+}
+
+/// What the simulation has to say, on standard error.
+void say_findings(const RenderOptions& options, const Scene& scene, const SimulationResult& result,
+                  Stats& stats) {
+    stats.add_warnings(result.report, options.common.quiet);
+    stats.add_verdict(scene, result.motion, options.common.quiet);
+    Stats::warn_of_unrest(result.report, options.common.quiet);
 }
 
 void say_end(const Stats& stats) {
@@ -218,19 +241,28 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (is_done_early(options, *scene)) return nothing_to_do(options);
     if (!options.dry_run) prepare_folders(requests(options));
 
+    const std::string why_whole =
+        options.dry_run ? "nothing is drawn" : why_whole_motion(*scene, scenes->second.has_value());
+    stats.effects["early_start"] = {why_whole.empty(),
+                                    why_whole.empty() ? "frames need no later motion" : why_whole};
     SimulationResult simulated;
     std::optional<FilmedSecond> second;
-    {
+    std::optional<GrowingMotion> growing;
+    if (why_whole.empty()) {
+        // What --stats says is of the whole motion.
+        growing.emplace(*scene,
+                        options.common.stats_path.empty() ? GrowingMotion::Keep::kNeeded
+                                                          : GrowingMotion::Keep::kAll,
+                        interrupt.token());
+    } else {
         const CpuTimer timer(stats.sim_cpu_s);
         const ProgressMode mode = options.common.progress_mode();
         simulated = simulate_shown(*scene, interrupt, mode);
         second = simulate_second(*scenes, simulated.motion, interrupt, mode);
+        say_findings(options, *scene, simulated, stats);
     }
-    const Motion& motion = simulated.motion;
+    const Motion& motion = growing ? growing->motion() : simulated.motion;
     if (second) stats.add_second(*second);
-    stats.add_warnings(simulated.report, options.common.quiet);
-    stats.add_verdict(*scene, motion, options.common.quiet);
-    Stats::warn_of_unrest(simulated.report, options.common.quiet);
     FilmSource source{*scene, scenes->second ? &*scenes->second : nullptr, scenes->view,
                       wanted_frames(options, scene->film, motion.duration),
                       frame_count(scene->film, motion.duration)};
@@ -249,7 +281,13 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     stats.frames = source.frames.size();
     stats.frames_kept = wanted.size() - stats.frames;
     if (stats.frames > 0)
-        film(options, interrupt, source, motion, second ? &second->run : nullptr, stats);
+        film(options, interrupt, source, motion, growing ? &*growing : nullptr,
+             second ? &second->run : nullptr, stats);
+    if (growing && !options.common.stats_path.empty()) {
+        simulated = growing->finish();
+        stats.sim_cpu_s += growing->cpu_s();
+        say_findings(options, *scene, simulated, stats);
+    }
     if (!options.common.stats_path.empty())
         write_stats(options.common, stats_json(stats, &simulated));
     if (!options.common.quiet) say_end(stats);

@@ -1,0 +1,78 @@
+"""Films that begin while their motion is still being computed: the same frames and numbers."""
+
+import json
+import re
+import resource
+import signal
+import subprocess
+import unittest
+
+from long_work import GAS, LongWork
+from program import CAROM, ProgramTest, run
+
+CAMERA = "camera: {from: [0, -5, 2], to: [0, 0, 1]}\n"
+
+
+class EarlyStart(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.scene.write_text(GAS + CAMERA + "overlay: {clock: true, labels: true}\n")
+
+    def stats(self, *words):
+        path = self.folder / "stats.json"
+        self.assert_exit(0, run(*words, "--stats", path, "-y"))
+        return json.loads(path.read_text())
+
+    def test_frames_and_numbers_are_those_of_the_whole_motion(self):
+        words = ["--set", "simulation.duration=40", "--set", "film.fps=5"]
+        filmed = self.stats("render", self.scene, "-o", self.folder / "f_%03d.png", *words)
+        self.assertTrue(filmed["effects"]["early_start"]["on"])
+        self.assertEqual(200, filmed["frames"])
+        self.assertGreater(filmed["cpu_s"]["sim"], 0)
+        whole = self.stats("simulate", self.scene, "-o", "/dev/null", *words)
+        for key in ("motion_hash", "impacts", "steps", "balls"):
+            self.assertEqual(whole[key], filmed[key])
+        for k in (0, 1, 77, 199):
+            still = self.folder / "still.png"
+            self.assert_exit(0, run("still", self.scene, "--time", k / 5, "-o", still, "-y", *words))
+            self.assert_exit(0, run("compare", still, self.folder / f"f_{k:03}.png", "--tolerance", 0, "--max-differing", 0))
+
+    def test_frames_come_long_before_the_motion_ends(self):
+        process = subprocess.Popen([CAROM, "render", str(self.scene), "-o", "-", "--format", "y4m", "--size", "64x64", "-q"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        frame = 64 * 64 * 3 // 2
+        self.assertEqual(50 * frame, len(process.stdout.read(50 * frame)))  # of two million frames
+        process.stdout.close()
+        self.assertEqual(0, process.wait(timeout=20), process.stderr.read())
+        self.assertEqual(b"", process.stderr.read())
+        process.stderr.close()
+
+    def test_what_needs_the_end_is_said(self):
+        for scene, text in ((GAS, "camera"), (GAS + CAMERA + "overlay: {trail: true}\n", "trails")):
+            self.scene.write_text(scene)
+            effect = self.stats("render", self.scene, "-o", self.folder / "f_%d.png", "--frames", "0-1", "--set",
+                                "simulation.duration=1")["effects"]["early_start"]
+            self.assertFalse(effect["on"])
+            self.assertIn(text, effect["why"])
+
+    def test_an_interrupt_keeps_the_playable_part(self):
+        work = LongWork("render", self.scene, "-o", self.folder / "f.mp4", "--progress", "json", "--size", "64x64")
+        while json.loads(work.process.stderr.readline())["done"] < 20:
+            pass
+        code, _, errors = work.end(signal.SIGINT)
+        self.assertEqual(130, code, errors)
+        self.assertRegex(errors, r"interrupted after \d+ of 20000000 frames")
+        self.assertEqual(["f.partial.mp4"], self.names())
+
+    def test_a_failure_of_the_encoder_stops_the_simulation_and_is_said_once(self):
+        def little_room():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+        result = run("render", self.scene, "-o", self.folder / "f.mkv", "-q", preexec_fn=little_room, timeout=100)
+        self.assert_exit(4, result)
+        self.assertEqual(1, len(re.findall("carom: ", result.stderr)), result.stderr)
+        self.assertEqual([], self.names())
+
+
+if __name__ == "__main__":
+    unittest.main()
