@@ -5,6 +5,7 @@ import re
 import resource
 import signal
 import subprocess
+import sys
 import unittest
 
 from long_work import GAS, LongWork
@@ -36,6 +37,39 @@ class EarlyStart(ProgramTest):
             still = self.folder / "still.png"
             self.assert_exit(0, run("still", self.scene, "--time", k / 5, "-o", still, "-y", *words))
             self.assert_exit(0, run("compare", still, self.folder / f"f_{k:03}.png", "--tolerance", 0, "--max-differing", 0))
+
+    def test_what_is_let_go_changes_nothing(self):
+        for words in (["--rate", 7], ["--rate", "30000/1001"]):
+            rows = ["simulate", self.scene, "--set", "simulation.duration=60", "-y", *words]
+            self.assert_exit(0, run(*rows, "-o", self.folder / "let_go.csv"))
+            self.assert_exit(0, run(*rows, "-o", self.folder / "kept.csv", "--stats", self.folder / "s.json"))
+            self.assertEqual((self.folder / "kept.csv").read_bytes(), (self.folder / "let_go.csv").read_bytes())
+        frames = ["render", self.scene, "--set", "simulation.duration=60", "--set", "film.fps=2", "-y"]
+        self.assert_exit(0, run(*frames, "-o", self.folder / "let_go"))
+        self.assert_exit(0, run(*frames, "-o", self.folder / "kept", "--stats", self.folder / "s.json"))
+        names = sorted(path.name for path in (self.folder / "kept").iterdir())
+        self.assertEqual(120, len(names))
+        for name in names:
+            self.assertEqual((self.folder / "kept" / name).read_bytes(), (self.folder / "let_go" / name).read_bytes())
+
+    def test_memory_does_not_grow_with_the_length(self):
+        script = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stderr=subprocess.DEVNULL); "
+                  "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)")
+
+        def peak(duration, *words):
+            command = [CAROM, words[0], str(self.scene), "--set", f"simulation.duration={duration}", "-y", *words[1:]]
+            return int(subprocess.run([sys.executable, "-c", script, *command], capture_output=True, text=True,
+                                      check=True).stdout.split()[-1])
+        for words in (["simulate", "--rate", "1", "-o", "/dev/null"],
+                      ["render", "--set", "film.fps=1/4", "--size", "64x64", "-o", str(self.folder / "f.mkv")]):
+            short, long = peak(300, *words), peak(3000, *words)
+            print(f"{words[0]}: {short} kB for 300 s, {long} kB for 3000 s")
+            self.assertLess(long, 1.05 * short + 2000)
+        # What is kept otherwise is ten times as much.
+        short, long = (peak(duration, "simulate", "--rate", "1", "-o", "/dev/null", "--stats", str(self.folder / "s.json"))
+                       for duration in (300, 3000))
+        print(f"kept: {short} kB, {long} kB")
+        self.assertGreater(long, 2 * short)
 
     def test_frames_come_long_before_the_motion_ends(self):
         process = subprocess.Popen([CAROM, "render", str(self.scene), "-o", "-", "--format", "y4m", "--size", "64x64", "-q"],
