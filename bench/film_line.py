@@ -53,7 +53,7 @@ def main():
     repeats = int(words[words.index("--repeats") + 1]) if "--repeats" in words else 3
     names = [w for i, w in enumerate(words) if not w.startswith("-") and (i == 0 or words[i - 1] != "--repeats")]
     carom = names[0] if names else "build/bench/carom"
-    alone = names[1] if len(names) > 1 else "build/bench/bench/encoder_alone"
+    alone = names[1] if len(names) > 1 else str(pathlib.Path(carom).parent / "bench/encoder_alone")
     cores = os.cpu_count()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
