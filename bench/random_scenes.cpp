@@ -1,5 +1,5 @@
 // Random scenes and what their motions must keep, whatever the scene.
-//   random_scenes tracks|seams|scenes|shapes|transforms [--count N] [--seed S] [--failures DIR]
+//   random_scenes tracks|seams|scenes|shapes|air|transforms [--count N] [--seed S] [--failures DIR]
 //                 [--reduce TRIES] [-v]
 // Seeds are S, S + 1, ...; each scene runs in a child, so that a hang or a crash is counted. Prints
 // the failures by symptom, and the worst values of what held; --failures writes their scenes,

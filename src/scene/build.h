@@ -41,7 +41,8 @@ struct Build {
 };
 
 // In this order: later ones use what earlier ones filled in.
-void build_setup(Build& build);      // title, simulation, film
+void build_setup(Build& build);  // title, simulation, film
+void build_air(Build& build);
 void build_materials(Build& build);  // materials and pairs
 void build_looks(Build& build);
 void build_surfaces(Build& build);
@@ -52,6 +53,7 @@ void build_test(Build& build);
 void build_against(Build& build);
 void check_names(Build& build);     // unique over balls and surfaces
 void check_overlaps(Build& build);  // at the start
+void check_flights(Build& build);   // what air asks of balls
 void warn_of_half_friction(Build& build);
 
 /// The material that a reference names; the catalogue's are added when they are first asked for.
@@ -61,6 +63,10 @@ int preset_material(Build& build, const std::string& preset_name);
 
 /// The look that a reference names; reports an unknown name and returns -1.
 int resolve_look(Build& build, const Node& reference);
+
+/// What a ball's key `drag` or `lift` says; it is there.
+Drag read_drag(Build& build, const Fields& fields);
+Lift read_lift(Build& build, const Fields& fields);
 
 /// Index of the ball that a reference names; reports an unknown name and returns -1.
 int resolve_ball(Build& build, const Node& reference);

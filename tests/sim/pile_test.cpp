@@ -186,5 +186,28 @@ TEST(Pile, WakesUnderAHammer) {
     EXPECT_GT(end.position.z(), 0.1 - 1e-3);
 }
 
+/// Balls of three materials in any order: each impact rebounds by the coefficient of its own pair.
+TEST(Pile, EachPairHasItsOwnNumbers) {
+    Scene scene = pour({60, 0.5, 0.2, false, 1});
+    const auto coefficient = [](int a, int b) { return a == b ? 0.7 : 0.3 + 0.1 * (a + b); };
+    scene.materials.resize(5);
+    scene.pairs.clear();
+    for (int a = 2; a < 5; ++a)
+        for (int b = a; b < 5; ++b) scene.pairs.push_back({{a, b}, coefficient(a, b), 0.2, {}});
+    for (std::size_t i = 0; i < scene.balls.size(); ++i)
+        scene.balls[i].material = 2 + static_cast<int>(i * 7 % 3);
+    const SimulationResult r = run(scene, 1);
+    int between_balls = 0;
+    for (const Event& e : impacts_of(r.motion)) {
+        const auto ball = static_cast<std::size_t>(e.ball);
+        const auto other = static_cast<std::size_t>(e.other.index);
+        const int material = e.other.is_surface ? 2 : scene.balls[other].material;
+        between_balls += e.other.is_surface ? 0 : 1;
+        ASSERT_EQ(e.restitution, coefficient(std::min(scene.balls[ball].material, material),
+                                             std::max(scene.balls[ball].material, material)));
+    }
+    EXPECT_GT(between_balls, 100);
+}
+
 }  // namespace
 }  // namespace carom::testing

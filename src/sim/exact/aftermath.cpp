@@ -24,8 +24,8 @@ void Aftermath::start(int ball) {
         settle_ball(ball, 0, start, contacts, {}, {body.velocity.norm(), true});
 }
 
-void Aftermath::settle(const ImpactCluster& cluster, const std::vector<Contact>& impacts,
-                       double now) {
+void Aftermath::settle(const ImpactCluster& cluster, double first_approach,
+                       const std::vector<Contact>& impacts, double now) {
     const bool stepped = islands_.has_part_in(cluster);
     // What was left to a step has to be linked for it.
     const bool coarse = std::any_of(cluster.balls().begin(), cluster.balls().end(),
@@ -41,8 +41,7 @@ void Aftermath::settle(const ImpactCluster& cluster, const std::vector<Contact>&
         // first.
         const bool at_start = now == 0 && world_.ball(ball).surface < 0;
         cluster.contacts_of(ball, contacts_);
-        settle_ball(ball, now, velocities, contacts_, impacts,
-                    {cluster.first_approach(), at_start});
+        settle_ball(ball, now, velocities, contacts_, impacts, {first_approach, at_start});
     }
 }
 

@@ -23,7 +23,8 @@ class Aftermath {
     /// A ball as the scene has it, at time 0.
     void start(int ball);
     /// The balls of a cluster that has been resolved; `impacts` are those of it that met.
-    void settle(const ImpactCluster& cluster, const std::vector<Contact>& impacts, double now);
+    void settle(const ImpactCluster& cluster, double first_approach,
+                const std::vector<Contact>& impacts, double now);
 
   private:
     /// What the lasting contacts of a ball are told from, besides their own speeds.

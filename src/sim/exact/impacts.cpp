@@ -30,7 +30,7 @@ std::size_t Impacts::connect(double now) {
 }
 
 /// What hangs on a contact that is met, and when that is resolved.
-ImpactCluster::Limits Impacts::gather(const Contact& seed, double now) {
+ImpactCascade::Limits Impacts::gather(const Contact& seed, double now) {
     const bool heap = in_free_space_ && seed.restitution < 1 &&
                       (collapse_.in_heap(seed.ball) ||
                        (!seed.other.is_surface && collapse_.in_heap(seed.other.index)));
@@ -39,7 +39,7 @@ ImpactCluster::Limits Impacts::gather(const Contact& seed, double now) {
         return islands_.limits_of(cluster_);
     }
     cluster_.gather_heap(seed, seeds_, CollapseRule::kNear, now);
-    ImpactCluster::Limits limits;
+    ImpactCascade::Limits limits;
     if (cluster_.contact_count() == 1) {
         for (const int ball : cluster_.balls()) collapse_.leave_heap(ball);
     } else {
@@ -63,9 +63,9 @@ void Impacts::note_series(double now) {
 bool Impacts::resolve(std::size_t i, double now) {
     const Contact seed = seeds_.all()[i];
     if (world_.ball(seed.ball).resolved == instant_) return false;
-    const ImpactCluster::Limits limits = gather(seed, now);
+    const ImpactCascade::Limits limits = gather(seed, now);
     impacts_.clear();
-    cluster_.resolve(solver_, impacts_, limits);
+    cascade_.resolve(impacts_, limits);
     if (in_free_space_) note_series(now);
     const double rounding_speed =
         std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
@@ -74,7 +74,7 @@ bool Impacts::resolve(std::size_t i, double now) {
         world_.ball(ball).resolved = instant_;
         world_.ball(ball).rounding_speed = rounding_speed;
     }
-    aftermath_.settle(cluster_, impacts_, now);
+    aftermath_.settle(cluster_, cascade_.first_approach(), impacts_, now);
     return true;
 }
 

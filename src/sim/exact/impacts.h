@@ -7,8 +7,7 @@
 
 #include "sim/exact/aftermath.h"
 #include "sim/group/collapse.h"
-#include "sim/group/impact_cluster.h"
-#include "sim/solve/impact_solver.h"
+#include "sim/group/impact_cascade.h"
 
 namespace carom {
 
@@ -23,6 +22,7 @@ class Impacts {
           islands_(islands),
           aftermath_(aftermath),
           cluster_(world),
+          cascade_(cluster_),
           collapse_(world.balls.size()),
           in_free_space_(world.scene.simulation.gravity.isZero(0) || world.scene.surfaces.empty()),
           seeds_(world.balls.size()) {}
@@ -42,7 +42,7 @@ class Impacts {
     bool is_in_free_space() const { return in_free_space_; }
 
   private:
-    ImpactCluster::Limits gather(const Contact& seed, double now);
+    ImpactCascade::Limits gather(const Contact& seed, double now);
     void note_series(double now);
     bool has_links(int ball) const {
         return has_island(world_.ball(ball).phase()) && !links_.of(ball).empty();
@@ -53,9 +53,9 @@ class Impacts {
     RunLog& log_;
     Islands& islands_;
     Aftermath& aftermath_;
-    ImpactSolver solver_;
     // Members, so that an event allocates nothing once they have grown.
     ImpactCluster cluster_;
+    ImpactCascade cascade_;
     CollapseRule collapse_;
     bool in_free_space_;
     Seeds seeds_;

@@ -5,72 +5,16 @@
 
 #include "core/check.h"
 #include "geometry/nearest.h"
-#include "sim/solve/contact_sweeps.h"
 #include "sim/world/seams.h"
 
 namespace carom {
 
 namespace {
 
-/// Approach speeds that differ by less, relative to the largest, are equal: they went through some
-/// dozen roundings.
-constexpr double kEqual = 1e-12;
-
-/// What is left of the approach when a cluster counts as resolved, relative to the first.
-constexpr double kResolved = 1e-13;
-
-/// Approach speeds below this are rounding of the velocities that they are differences of, relative
-/// to the largest of those.
-constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-
-/// Rounds of any cluster, and for each contact as a multiple of the root of the mass ratio.
-constexpr double kRounds = 2000;
-constexpr double kRoundsPerContact = 32;
-
-/// No cluster gets more: some seconds. It is enough for mass ratios up to 1e13.
-constexpr double kMostRounds = 2e7;
-
 /// A gap above this part of the places is none of a contact, well above all roundings.
 constexpr double kFar = 1e-6;
 
 }  // namespace
-
-// ---- Seeds
-// --------------------------------------------------------------------------------------
-
-void Seeds::clear() {
-    for (const Contact& c : all_) {
-        first_[static_cast<std::size_t>(c.ball)] = -1;
-        if (!c.other.is_surface) first_[static_cast<std::size_t>(c.other.index)] = -1;
-    }
-    all_.clear();
-    next_.clear();
-}
-
-int Seeds::next_of(int seed, int ball) const {
-    const auto i = static_cast<std::size_t>(seed);
-    return next_[i][all_[i].ball == ball ? 0 : 1];
-}
-
-void Seeds::add(const Contact& contact) {
-    bool known = false;
-    for_each_of(contact.ball, [&](const Contact& c) {
-        known |= c.ball == contact.ball && c.other == contact.other;
-    });
-    if (known) return;
-    const int index = static_cast<int>(all_.size());
-    all_.push_back(contact);
-    int& first = first_[static_cast<std::size_t>(contact.ball)];
-    next_.push_back({first, -1});
-    first = index;
-    if (contact.other.is_surface) return;
-    int& first_of_other = first_[static_cast<std::size_t>(contact.other.index)];
-    next_.back()[1] = first_of_other;
-    first_of_other = index;
-}
-
-// ---- Who touches whom
-// ---------------------------------------------------------------------------
 
 ImpactCluster::ImpactCluster(ExactWorld& world) : world_(world), place_(world.balls.size(), -1) {}
 
@@ -123,7 +67,7 @@ void ImpactCluster::grow(const Contact& seed, const Seeds& seeds, double time) {
     bodies_.clear();
     contacts_.clear();
     time_ = time;
-    first_approach_ = largest_speed_ = 0;
+    largest_speed_ = 0;
     add_ball(seed.ball);
     // The order of the balls follows the contacts, so that the same scene gives the same cluster.
     for (std::size_t k = 0; k < balls_.size(); ++k) {
@@ -179,169 +123,13 @@ void ImpactCluster::touch_balls(int ball) {
     });
 }
 
-// ---- Resolving
-// ----------------------------------------------------------------------------------
+// ---- What it tells
+// --------------------------------------------------------------------------------
 
 double ImpactCluster::approach(const Contact& c) const {
     const Velocities other =
         c.other.is_surface ? Velocities{} : bodies_[index_of(c.other.index)].velocities;
     return -relative_velocity(c, bodies_[index_of(c.ball)].velocities, other).dot(c.normal);
-}
-
-/// A contact under the numbers that its balls have in the cluster.
-SolverContact ImpactCluster::under_own_numbers(const Contact& c) const {
-    return {c, static_cast<int>(index_of(c.ball)),
-            c.other.is_surface ? -1 : static_cast<int>(index_of(c.other.index))};
-}
-
-/// The contacts that approach at least so fast, for the solver: only the bodies at hand, under
-/// numbers of its own.
-void ImpactCluster::choose(double slowest) {
-    chosen_.clear();
-    here_.clear();
-    solver_bodies_.clear();
-    solver_contacts_.clear();
-    number_.assign(balls_.size(), -1);
-    const auto number = [this](int ball) {
-        const std::size_t i = index_of(ball);
-        if (number_[i] < 0) {
-            number_[i] = static_cast<int>(here_.size());
-            here_.push_back(i);
-            solver_bodies_.push_back(bodies_[i]);
-        }
-        return number_[i];
-    };
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        if (!(speeds_[i] >= slowest)) continue;
-        chosen_.push_back(i);
-        const Contact& c = contacts_[i];
-        const int body = number(c.ball);
-        solver_contacts_.emplace_back(c, body, c.other.is_surface ? -1 : number(c.other.index));
-    }
-}
-
-void ImpactCluster::solve(ImpactSolver& solver, bool inelastic, double enough,
-                          std::vector<Contact>& impacts) {
-    if (inelastic)
-        for (SolverContact& c : solver_contacts_) c.restitution = 0;
-    solver.solve(solver_bodies_, solver_contacts_, time_);
-    for (std::size_t k = 0; k < here_.size(); ++k)
-        bodies_[here_[k]].velocities = solver_bodies_[k].velocities;
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-        const SolverContact& solved = solver_contacts_[k];
-        if (impact_of_[chosen_[k]] >= 0 || solved.approach_speed > enough ||
-            (inelastic && solved.impulse > 0))
-            note_impulse(chosen_[k], solved, impacts);
-    }
-}
-
-/// Adds what a contact took to its impact, which begins with the first.
-void ImpactCluster::note_impulse(std::size_t contact, const SolverContact& solved,
-                                 std::vector<Contact>& impacts) {
-    int& entry = impact_of_[contact];
-    if (entry >= 0) {
-        Contact& impact = impacts[static_cast<std::size_t>(entry)];
-        impact.impulse += solved.impulse;
-        impact.tangential_impulse += solved.tangential_impulse;
-        return;
-    }
-    entry = static_cast<int>(impacts.size());
-    impacts.push_back({solved, contacts_[contact].ball, contacts_[contact].other});
-    impacts.back().impact = true;
-}
-
-void ImpactCluster::end_impacts(std::vector<Contact>& impacts) {
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        contacts_[i].separation_speed = -approach(contacts_[i]);
-        if (const int entry = impact_of_[i]; entry >= 0)
-            impacts[static_cast<std::size_t>(entry)].separation_speed =
-                std::max(contacts_[i].separation_speed, 0.0);
-    }
-}
-
-/// The common case, without rounds: nothing else hangs on the contact.
-void ImpactCluster::resolve_single(ImpactSolver& solver, std::vector<Contact>& impacts,
-                                   const Limits& limits) {
-    Contact& contact = contacts_.front();
-    first_approach_ = approach(contact);
-    contact.separation_speed = -first_approach_;
-    if (!(first_approach_ > std::max(kRounding * largest_speed_, limits.enough))) return;
-    solver_contacts_.assign(1, under_own_numbers(contact));
-    solver.solve(bodies_, solver_contacts_, time_);
-    const SolverContact& solved = solver_contacts_.front();
-    contact.separation_speed = solved.separation_speed;
-    impacts.push_back({solved, contact.ball, contact.other});
-    impacts.back().impact = true;
-    impacts.back().separation_speed = std::max(solved.separation_speed, 0.0);
-}
-
-/// Of all contacts; and which are each ball's.
-void ImpactCluster::find_speeds() {
-    speeds_.clear();
-    of_ball_.resize(balls_.size());
-    for (std::vector<std::size_t>& list : of_ball_) list.clear();
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const Contact& c = contacts_[i];
-        speeds_.push_back(approach(c));
-        of_ball_[index_of(c.ball)].push_back(i);
-        if (!c.other.is_surface) of_ball_[index_of(c.other.index)].push_back(i);
-    }
-}
-
-/// After a round: of the balls that took part in it.
-void ImpactCluster::update_speeds() {
-    for (const std::size_t ball : here_)
-        for (const std::size_t i : of_ball_[ball]) speeds_[i] = approach(contacts_[i]);
-}
-
-/// Rounds that suffice for whatever ends: a chain of n balls needs about n, and a ball between a
-/// wall and another of mass ratio r about pi sqrt(r) (G. Galperin, "Playing pool with the number
-/// pi", 2003), or, where each loses a part of the speed, some ten times as many until what is left
-/// is rounding.
-std::size_t ImpactCluster::rounds_to_end() const {
-    double lightest = bodies_.front().mass, heaviest = lightest;
-    for (const ImpactBody& b : bodies_) {
-        lightest = std::min(lightest, b.mass);
-        heaviest = std::max(heaviest, b.mass);
-    }
-    const double contacts = static_cast<double>(contacts_.size());
-    const double rounds = kRounds + kRoundsPerContact * contacts * std::sqrt(heaviest / lightest);
-    return static_cast<std::size_t>(std::min(rounds, kMostRounds));
-}
-
-void ImpactCluster::resolve(ImpactSolver& solver, std::vector<Contact>& impacts,
-                            const Limits& limits) {
-    if (contacts_.size() == 1) {
-        resolve_single(solver, impacts, limits);
-        return;
-    }
-    impact_of_.assign(contacts_.size(), -1);
-    find_speeds();
-    const std::size_t rounds = limits.rounds > 0 ? limits.rounds : rounds_to_end();
-    for (std::size_t round = 0;; ++round) {
-        const double largest = *std::max_element(speeds_.begin(), speeds_.end());
-        if (round == 0) first_approach_ = largest;
-        const double enough = std::max({std::max(kResolved, limits.slow) * first_approach_,
-                                        kRounding * largest_speed_, limits.enough});
-        if (!(largest > enough)) break;
-        const bool last = round > rounds + contacts_.size();
-        if (last && limits.enough > 0) {
-            press_together();
-            break;
-        }
-        choose(last ? -std::numeric_limits<double>::infinity() : largest * (1 - kEqual));
-        solve(solver, last, enough, impacts);
-        if (last) break;
-        update_speeds();
-    }
-    if (limits.slow > 0) press_rest(solver, impacts);
-    end_impacts(impacts);
-}
-
-/// All contacts at once, none of which rebounds.
-void ImpactCluster::press_rest(ImpactSolver& solver, std::vector<Contact>& impacts) {
-    choose(-std::numeric_limits<double>::infinity());
-    solve(solver, true, std::numeric_limits<double>::infinity(), impacts);
 }
 
 void ImpactCluster::contacts_of(int ball, std::vector<Contact>& result) const {
@@ -350,21 +138,6 @@ void ImpactCluster::contacts_of(int ball, std::vector<Contact>& result) const {
         if (c.ball != ball && (c.other.is_surface || c.other.index != ball)) continue;
         result.push_back(c);
     }
-}
-
-/// Ends an impact that a pile passes to and fro: nothing rebounds any more.
-void ImpactCluster::press_together() {
-    std::vector<SolverContact> contacts;
-    for (const Contact& c : contacts_) contacts.push_back(under_own_numbers(c));
-    std::vector<Vec3> pushes(contacts.size(), Vec3::Zero());
-    solve_island_by_gauss_seidel(bodies_, contacts, std::vector<double>(contacts.size(), 0.0),
-                                 pushes);
-}
-
-std::vector<Contact> ImpactCluster::contacts_of(int ball) const {
-    std::vector<Contact> result;
-    contacts_of(ball, result);
-    return result;
 }
 
 }  // namespace carom

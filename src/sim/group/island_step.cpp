@@ -44,16 +44,12 @@ double normal_speed(const SolverContact& c, const std::vector<ImpactBody>& bodie
 
 IslandStep::IslandStep(const ExactWorld& world, const Links& links, const std::vector<int>& balls,
                        double now)
-    : world_(world),
-      balls_(balls),
-      account_(world.scene.simulation.gravity),
-      results_(balls.size()),
-      after_(balls.size()) {
+    : world_(world), balls_(balls), results_(balls.size()), after_(balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const BallState& start = results_[i].start = world.state(balls[i], now);
         const ExactBall& b = world.ball(balls[i]);
         account_.add(b.mass, b.inertia_factor * b.mass * b.radius * b.radius, b.radius,
-                     start.position);
+                     start.position, world.pull_on(balls[i], {start.velocity, start.spin}));
         for (const Link& link : links.of(balls[i])) {
             const Contact c = world.contact_at(balls[i], link.partner, now);
             if (c.ball != balls[i]) continue;
@@ -137,7 +133,8 @@ std::vector<ImpactBody> IslandStep::bodies(double ahead) const {
         all.push_back({s.position + ahead * s.velocity,
                        {s.velocity, s.spin},
                        b.mass,
-                       b.inertia_factor * b.mass * b.radius * b.radius});
+                       b.inertia_factor * b.mass * b.radius * b.radius,
+                       world_.air_on(balls_[i], {s.velocity, s.spin})});
     }
     return all;
 }
@@ -170,6 +167,7 @@ void IslandStep::stop_approaches(IslandSolver& solver) {
         c.depth = 0;
     }
     if (!approaches) return;
+    for (ImpactBody& body : meeting) body.air.setZero();
     std::vector<Vec3> pushes(pushes_.size(), Vec3::Zero());
     solver.step(meeting, local, pushes, Vec3::Zero(), seconds_);
     std::vector<Velocities> velocities;

@@ -53,13 +53,14 @@ class PileRows {
         if (a.changed <= since && (b == nullptr || b->changed <= since)) return false;
         row.relaxed = ++clock_;
 
+        if (!(row.friction > 0)) return relax_smooth(row, a, b);
         const Vec3& n = row.normal;
         const Vec3 apart = b == nullptr ? a.velocity : Vec3(a.velocity - b->velocity);
         const double before = row.push;
         row.push = std::max(before + (row.target - apart.dot(n)) * row.normal_mass, 0.0);
         const double change = row.push - before;
         Vec3 impulse = change * n, turn = Vec3::Zero();
-        if (row.friction > 0 && (row.push > 0 || before > 0)) {
+        if (row.push > 0 || before > 0) {
             const Vec3 slip = b == nullptr
                                   ? Vec3(apart - apart.dot(n) * n + n.cross(a.rim))
                                   : Vec3(apart - apart.dot(n) * n + n.cross(a.rim + b->rim));
@@ -73,7 +74,24 @@ class PileRows {
         }
         push(a, impulse, turn, 1);
         if (b != nullptr) push(*b, impulse, turn, -1);
-        const double size = impulse.norm();
+        return note(row, a, b, impulse.norm());
+    }
+
+    /// Without friction only speeds along the normal count.
+    bool relax_smooth(PileRow& row, PileBody& a, PileBody* b) {
+        const double speed =
+            b == nullptr ? a.velocity.dot(row.normal) : (a.velocity - b->velocity).dot(row.normal);
+        const double before = row.push;
+        row.push = std::max(before + (row.target - speed) * row.normal_mass, 0.0);
+        const double change = row.push - before;
+        if (change == 0) return false;
+        a.velocity += change * a.inverse_mass * row.normal;
+        if (b != nullptr) b->velocity -= change * b->inverse_mass * row.normal;
+        return note(row, a, b, std::abs(change));
+    }
+
+    /// Both bodies have got an impulse of this size [N s]: whether it counts for one of them.
+    bool note(PileRow& row, PileBody& a, PileBody* b, double size) {
         const bool a_moved = size * a.inverse_mass > still_;
         const bool b_moved = b != nullptr && size * b->inverse_mass > still_;
         // The contact itself is right now: only the others of these bodies are called on.

@@ -1,13 +1,28 @@
-// One step of a pile: impacts, then forces, then what they leave of overlaps.
+#include "sim/group/pile_step.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/nearest.h"
-#include "sim/group/pile.h"
 
 namespace carom {
 
 namespace {
+
+/// The longest step of a pile [s], and how often it may be halved.
+constexpr double kLongestStep = 1.0 / 1000;
+constexpr int kMostHalvings = 12;
+
+/// A rebound at a step's start is early by at most this part of the smallest radius; gravity moves
+/// a ball by no more in the longest step.
+constexpr double kStepOfRadius = 0.03;
+
+/// Gaps of up to this part of the smallest radius are looked at in any case.
+constexpr double kLeastSlack = 1e-4;
+
+/// A touching pair of which one sleeps has parted when its gap is above this part of the smallest
+/// radius: its support may be gone.
+constexpr double kParted = 1e-3;
 
 /// Sweeps for the impacts of a step, and for its forces; the forces start from those of the step
 /// before, so that a pile goes on converging while it comes to rest.
@@ -30,34 +45,79 @@ constexpr double kOverlapBudget = 0.5;
 
 }  // namespace
 
-double Pile::kinetic_energy() const {
+PileStep::PileStep(const ExactWorld& world, PileBalls& balls, PilePairs& pairs)
+    : world_(world),
+      balls_(balls),
+      pairs_(pairs),
+      shift_(world.balls.size(), Vec3::Zero()),
+      longest_(kLongestStep) {
+    const double g = world.scene.simulation.gravity.norm();
+    for (int i = 0; i < kMostHalvings; ++i)
+        if (g * longest_ * longest_ > near_gap()) longest_ *= 0.5;
+}
+
+double PileStep::near_gap() const { return kStepOfRadius * balls_.smallest_radius(); }
+
+double PileStep::slack(double seconds) const {
+    return kLeastSlack * balls_.smallest_radius() + near_gap() +
+           world_.scene.simulation.gravity.norm() * seconds * seconds;
+}
+
+double PileStep::until_meeting(const PilePair& pair, double closing, double seconds) const {
+    if (!(pair.gap > near_gap()) || !(closing * seconds > pair.gap)) return seconds;
+    return pair.gap / closing;
+}
+
+double PileStep::slow_speed() const {
+    return 2 * world_.scene.simulation.gravity.norm() * longest_;
+}
+
+double PileStep::separation_gap() const { return kParted * balls_.smallest_radius(); }
+
+double PileStep::solve(double now, double seconds) {
+    seconds_ = seconds;
+    build_rows();
+    const double before = kinetic_energy();
+    solve_impacts();
+    shorten(now);
+    solve_forces();
+    const double lost = before + fall_energy() - kinetic_energy();
+    part_overlaps(kOverlapBudget * lost);
+    note_contacts();
+    return seconds_;
+}
+
+// ---- Energy
+// -------------------------------------------------------------------------------------
+
+double PileStep::kinetic_energy() const {
     double sum = 0;
-    for (const int ball : awake_) {
-        const PileBody& b = bodies_[static_cast<std::size_t>(ball)];
+    for (const int ball : balls_.awake()) {
+        const PileBody& b = balls_.body(ball);
         sum += b.velocity.squaredNorm() / b.inverse_mass + b.rim.squaredNorm() / b.inverse_spin;
     }
     return 0.5 * sum;
 }
 
 /// What gravity has given over the step: m g . h (v + v')/2 of all.
-double Pile::fall_energy() const {
-    const Vec3 g = world_.scene.simulation.gravity;
+double PileStep::fall_energy() const {
     double sum = 0;
-    for (const int ball : awake_) {
-        const PileBody& b = bodies_[static_cast<std::size_t>(ball)];
-        sum += g.dot(of(ball).started.linear + b.velocity) / b.inverse_mass;
+    for (const int ball : balls_.awake()) {
+        const PileBody& b = balls_.body(ball);
+        const Vec3 pull = world_.pull_on(ball, balls_.of(ball).started);
+        sum += pull.dot(balls_.of(ball).started.linear + b.velocity) / b.inverse_mass;
     }
     return 0.5 * seconds_ * sum;
 }
 
 /// Takes an energy out of all speeds, evenly: what the unfinished iterations had gained.
-void Pile::slow_down(double too_much) {
+void PileStep::slow_down(double too_much) {
     const double all = kinetic_energy();
     if (!(too_much > 0) || !(all > 0)) return;
     const double factor = std::sqrt(std::max(1 - too_much / all, 0.0));
-    for (const int ball : awake_) {
-        body(ball).velocity *= factor;
-        body(ball).rim *= factor;
+    for (const int ball : balls_.awake()) {
+        balls_.body(ball).velocity *= factor;
+        balls_.body(ball).rim *= factor;
     }
 }
 
@@ -65,13 +125,13 @@ void Pile::slow_down(double too_much) {
 // ---------------------------------------------------------------------------------------
 
 /// The normal of the middle of the step: there uniform rolling keeps its energy.
-void Pile::aim_at_mid_step(PileRow& row, const PilePair& pair) const {
+void PileStep::aim_at_mid_step(PileRow& row, const PilePair& pair) const {
     row.normal = pair.normal;
     const double half = 0.5 * seconds_;
-    const BallState& a = of(pair.ball).at;
+    const BallState& a = balls_.of(pair.ball).at;
     Vec3 x = a.position + half * a.velocity;
     if (!pair.other.is_surface) {
-        const BallState& b = of(pair.other.index).at;
+        const BallState& b = balls_.of(pair.other.index).at;
         x -= b.position + half * b.velocity;
         if (const double distance = x.norm(); distance > 0) row.normal = x / distance;
         return;
@@ -81,14 +141,16 @@ void Pile::aim_at_mid_step(PileRow& row, const PilePair& pair) const {
     row.normal = nearest_on(shape, x, world_.ball(pair.ball).radius).normal;
 }
 
-void Pile::build_rows() {
+void PileStep::build_rows() {
     active_.clear();
     rows_.clear();
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-        PilePair& pair = pairs_[i];
+    std::vector<PilePair>& pairs = pairs_.all();
+    const double reach = slack(seconds_);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        PilePair& pair = pairs[i];
         pair.bounces = false;
         pair.impact_push = pair.impact_tangential = 0;
-        if (!(pair.gap < slack_)) {
+        if (!(pair.gap < reach)) {
             pair.force = 0;
             pair.friction_force.setZero();
             continue;
@@ -105,12 +167,12 @@ void Pile::build_rows() {
 // ---- Parts
 // --------------------------------------------------------------------------------------
 
-void Pile::solve_impacts() {
+void PileStep::solve_impacts() {
     bool any = false;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        PilePair& pair = pairs_[active_[k]];
+        PilePair& pair = pairs_.all()[active_[k]];
         PileRow& row = rows_[k];
-        const double closing = -normal_speed(row, bodies_);
+        const double closing = -normal_speed(row, balls_.bodies());
         pair.bounces = closing > slow_speed() && closing * seconds_ > pair.gap;
         row.target =
             pair.bounces ? pair.restitution * closing : -std::max(pair.gap, 0.0) / seconds_;
@@ -118,107 +180,127 @@ void Pile::solve_impacts() {
     }
     if (!any) return;
     const double before = kinetic_energy();
-    sweep_pile(bodies_, rows_, kImpactSweeps);
+    sweep_pile(balls_.bodies(), rows_, kImpactSweeps);
     slow_down(kinetic_energy() - before);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        PilePair& pair = pairs_[active_[k]];
+        PilePair& pair = pairs_.all()[active_[k]];
         pair.impact_push = rows_[k].push;
         pair.impact_tangential = rows_[k].tangential.norm();
-        if (pair.bounces) pair.separation = normal_speed(rows_[k], bodies_);
+        if (pair.bounces) pair.separation = normal_speed(rows_[k], balls_.bodies());
         rows_[k].push = 0;
         rows_[k].tangential.setZero();
     }
 }
 
-void Pile::solve_forces() {
+/// Impacts have changed velocities: the step ends before what they have sent on its way meets.
+void PileStep::shorten(double now) {
+    const auto velocity = [&](int ball) {
+        return balls_.is_awake(ball) ? balls_.body(ball).velocity : balls_.velocity(ball, now);
+    };
+    double fastest = 0;
+    for (const int ball : balls_.awake())
+        fastest = std::max(fastest, balls_.body(ball).velocity.squaredNorm());
+    // What is not in the list is out of sight, and not so near that it could not bounce early.
+    const double sight = std::max(pairs_.sight(), near_gap());
+    if (const double most = 2 * std::sqrt(fastest); most * seconds_ > sight)
+        seconds_ = sight / most;
+    for (const PilePair& pair : pairs_.all()) {
+        if (!(pair.gap > near_gap())) continue;
+        Vec3 apart = velocity(pair.ball);
+        if (!pair.other.is_surface) apart -= velocity(pair.other.index);
+        seconds_ = until_meeting(pair, -apart.dot(pair.normal), seconds_);
+    }
+}
+
+void PileStep::solve_forces() {
     const double before = kinetic_energy();
-    for (const int ball : awake_)
-        of(ball).started = {body(ball).velocity, body(ball).rim / world_.ball(ball).radius};
+    for (const int ball : balls_.awake()) {
+        const PileBody& b = balls_.body(ball);
+        balls_.of(ball).started = {b.velocity, b.rim / world_.ball(ball).radius};
+    }
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const PilePair& pair = pairs_[active_[k]];
+        const PilePair& pair = pairs_.all()[active_[k]];
         PileRow& row = rows_[k];
         // (v + v')_n h / 2 >= -gap; what still closes is stopped, but not thrown back.
-        row.target =
-            std::min(-normal_speed(row, bodies_) - 2 * std::max(pair.gap, 0.0) / seconds_, 0.0);
+        row.target = std::min(
+            -normal_speed(row, balls_.bodies()) - 2 * std::max(pair.gap, 0.0) / seconds_, 0.0);
         row.push = pair.force * seconds_;
         row.tangential = pair.friction_force * seconds_;
     }
-    const Vec3 fall = seconds_ * world_.scene.simulation.gravity;
-    for (const int ball : awake_) body(ball).velocity += fall;
-    sweep_pile(bodies_, rows_, kForceSweeps);
+    for (const int ball : balls_.awake())
+        balls_.body(ball).velocity += seconds_ * world_.pull_on(ball, balls_.of(ball).started);
+    sweep_pile(balls_.bodies(), rows_, kForceSweeps);
     slow_down(kinetic_energy() - before - fall_energy());
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-        PilePair& pair = pairs_[active_[k]];
+        PilePair& pair = pairs_.all()[active_[k]];
         const PileRow& row = rows_[k];
         pair.force = row.push / seconds_;
         pair.friction_force = row.tangential / seconds_;
-        const Vec3 relative = relative_velocity(row, bodies_);
+        const Vec3 relative = relative_velocity(row, balls_.bodies());
         pair.slip =
             row.friction > 0 ? (relative - relative.dot(row.normal) * row.normal).norm() : 0;
     }
 }
 
-/// Moves overlapping balls apart, the lighter ones more, as far as the lost energy lifts them.
-void Pile::part_overlaps(double budget) {
+// ---- Overlaps
+// -----------------------------------------------------------------------------------
+
+/// Moves the two of a pair apart, the lighter one more: by how much [m].
+double PileStep::part_pair(const PilePair& pair) {
+    Vec3& shift = shift_[static_cast<std::size_t>(pair.ball)];
+    Vec3* other =
+        pair.other.is_surface ? nullptr : &shift_[static_cast<std::size_t>(pair.other.index)];
+    const double mine = balls_.body(pair.ball).inverse_mass;
+    const double its = other == nullptr ? 0 : balls_.body(pair.other.index).inverse_mass;
+    const Vec3 apart = other == nullptr ? shift : Vec3(shift - *other);
+    const double gap = pair.gap + apart.dot(pair.normal);
+    if (gap >= -kSlop * balls_.smallest_radius()) return 0;
+    const Vec3 push = -kRelaxation * gap / (mine + its) * pair.normal;
+    shift += mine * push;
+    if (other != nullptr) *other -= its * push;
+    return -kRelaxation * gap;
+}
+
+/// Moves overlapping balls apart, as far as the lost energy lifts them.
+void PileStep::part_overlaps(double budget) {
     bool any = false;
     for (int sweep = 0; sweep < kOverlapSweeps; ++sweep) {
-        bool moved = false;
-        for (const std::size_t i : active_) {
-            const PilePair& pair = pairs_[i];
-            Vec3 apart = shift_[static_cast<std::size_t>(pair.ball)];
-            double masses = body(pair.ball).inverse_mass;
-            if (!pair.other.is_surface) {
-                apart -= shift_[static_cast<std::size_t>(pair.other.index)];
-                masses += body(pair.other.index).inverse_mass;
-            }
-            const double gap = pair.gap + apart.dot(pair.normal);
-            if (gap >= -kSlop * smallest_radius_) continue;
-            moved = true;
-            const Vec3 push = -kRelaxation * gap / masses * pair.normal;
-            shift_[static_cast<std::size_t>(pair.ball)] += body(pair.ball).inverse_mass * push;
-            if (!pair.other.is_surface)
-                shift_[static_cast<std::size_t>(pair.other.index)] -=
-                    body(pair.other.index).inverse_mass * push;
-        }
-        if (!moved) break;
+        double moved = 0;
+        for (const std::size_t i : active_) moved = std::max(moved, part_pair(pairs_.all()[i]));
+        if (!(moved > 0)) break;
         any = true;
     }
     if (!any) return;
+    const auto shift = [&](int ball) -> Vec3& { return shift_[static_cast<std::size_t>(ball)]; };
     double rise = 0;
-    for (const int ball : awake_)
-        rise -= world_.ball(ball).mass *
-                world_.scene.simulation.gravity.dot(shift_[static_cast<std::size_t>(ball)]);
+    for (const int ball : balls_.awake())
+        rise -= world_.ball(ball).mass * world_.pull(ball).dot(shift(ball));
     const double most = std::max(budget, 0.0);
     const double factor = rise > most ? most / rise : 1;
-    for (const int ball : awake_) {
-        Vec3& shift = shift_[static_cast<std::size_t>(ball)];
-        of(ball).at.position += factor * shift;
-        shift.setZero();
+    for (const int ball : balls_.awake()) {
+        balls_.of(ball).at.position += factor * shift(ball);
+        shift(ball).setZero();
     }
 }
 
-void Pile::solve() {
-    build_rows();
-    const double before = kinetic_energy();
-    solve_impacts();
-    solve_forces();
-    const double lost = before + fall_energy() - kinetic_energy();
-    part_overlaps(kOverlapBudget * lost);
-    for (const int ball : awake_) {
-        PileBall& b = of(ball);
-        b.after = {body(ball).velocity, body(ball).rim / world_.ball(ball).radius};
+/// What the step means for each ball and each pair.
+void PileStep::note_contacts() {
+    for (const int ball : balls_.awake()) {
+        PileBall& b = balls_.of(ball);
+        b.after = {balls_.body(ball).velocity, balls_.body(ball).rim / world_.ball(ball).radius};
         b.near = 0;
         b.pushed = false;
     }
-    for (PilePair& pair : pairs_) {
-        if (!(pair.gap < 2 * slack_)) continue;
+    const double reach = 2 * slack(longest_);
+    for (PilePair& pair : pairs_.all()) {
+        if (!(pair.gap < reach)) continue;
         const bool pushes = pair.force > 0 || pair.impact_push > 0;
         pair.touching = pair.gap < separation_gap();
-        ++of(pair.ball).near;
-        of(pair.ball).pushed |= pushes;
+        ++balls_.of(pair.ball).near;
+        balls_.of(pair.ball).pushed |= pushes;
         if (pair.other.is_surface) continue;
-        ++of(pair.other.index).near;
-        of(pair.other.index).pushed |= pushes;
+        ++balls_.of(pair.other.index).near;
+        balls_.of(pair.other.index).pushed |= pushes;
     }
 }
 

@@ -51,8 +51,8 @@ bool Islands::has_part_in(const ImpactCluster& cluster) const {
 /// In an island that ODE steps, what is slower than a step can tell is left to the step, and a pile
 /// that goes on passing an impact to and fro is given up on as one inelastic contact. In others
 /// nothing is too slow that is no rounding.
-ImpactCluster::Limits Islands::limits_of(const ImpactCluster& cluster) const {
-    ImpactCluster::Limits limits;
+ImpactCascade::Limits Islands::limits_of(const ImpactCluster& cluster) const {
+    ImpactCascade::Limits limits;
     for (const int ball : cluster.balls()) {
         const ExactBall& b = world_.ball(ball);
         if (!has_island(b.phase())) continue;

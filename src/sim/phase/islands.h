@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sim/group/impact_cluster.h"
+#include "sim/group/impact_cascade.h"
 #include "sim/phase/coupled_islands.h"
 #include "sim/phase/held_balls.h"
 #include "sim/phase/island_links.h"
@@ -33,7 +33,7 @@ class Islands {
         island_links_.enter(ball, now, velocities);
     }
     bool has_part_in(const ImpactCluster& cluster) const;
-    ImpactCluster::Limits limits_of(const ImpactCluster& cluster) const;
+    ImpactCascade::Limits limits_of(const ImpactCluster& cluster) const;
     /// The contacts that are met now, and those links through which they may act.
     std::vector<Contact> linked_contacts(const std::vector<Contact>& seeds, double now) const {
         return island_links_.linked_contacts(seeds, now);

@@ -79,13 +79,13 @@ void Piles::enter(int ball, double now) {
 // ---------------------------------------------------------------------------------------
 
 void Piles::step(double now) {
-    for (const int ball : pile_.awake()) world_.follow_cell(ball, now);
+    for (const int ball : pile_.balls().awake()) world_.follow_cell(ball, now);
     taken_.clear();
     pile_.gather(now, links_, taken_);
     for (const int ball : taken_) enter(ball, now);
-    pile_.solve();
+    pile_.solve(now);
     ++log_.report.steps;
-    for (const int ball : pile_.awake()) move(ball, now);
+    for (const int ball : pile_.balls().awake()) move(ball, now);
     for (PilePair& pair : pile_.pairs()) state_pair(pair, now);
     next_step_ = now + pile_.seconds();
 }
@@ -96,9 +96,9 @@ void Piles::end_step() {
 }
 
 void Piles::move(int ball, double now) {
-    const PileBall& c = pile_.of(ball);
+    const PileBall& c = pile_.balls().of(ball);
     const Piece& piece = world_.ball(ball).piece;
-    const Vec3& gravity = world_.scene.simulation.gravity;
+    const Vec3 gravity = world_.pull_on(ball, {c.started.linear, c.started.spin});
     // A flight goes on.
     if (!c.pushed && piece.acceleration == gravity && piece.spin_rate.isZero(0)) return;
     BallState at = c.at;
@@ -111,10 +111,11 @@ void Piles::move(int ball, double now) {
 }
 
 bool Piles::leave(int ball, double now) {
-    PileBall& c = pile_.of(ball);
+    PileBall& c = pile_.balls().of(ball);
     const Velocities velocities = c.started;
     if (c.near <= 1 && leaves_alone(ball, now, velocities)) return true;
-    const double calm = kCalmFraction * 0.5 * pile_.slow_speed(), r = world_.ball(ball).radius;
+    const double calm = kCalmFraction * 0.5 * pile_.rules().slow_speed(),
+                 r = world_.ball(ball).radius;
     const bool is_calm =
         c.started.linear.norm() < calm && c.after.linear.norm() < calm &&
         (r * c.after.spin.norm() < calm || r * (c.after.spin - c.started.spin).norm() < 0.1 * calm);
@@ -125,7 +126,7 @@ bool Piles::leave(int ball, double now) {
 }
 
 void Piles::lay_to_sleep(int ball, double now, double calm_speed) {
-    PileBall& c = pile_.of(ball);
+    PileBall& c = pile_.balls().of(ball);
     ExactBall& b = world_.ball(ball);
     BallState at = world_.state(ball, now);
     at.velocity.setZero();
@@ -133,19 +134,19 @@ void Piles::lay_to_sleep(int ball, double now, double calm_speed) {
     world_.set_phase(ball, Phase::kPileAsleep);
     world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
     c.load = 0;
-    pile_.lay_to_sleep(ball);
+    pile_.balls().lay_to_sleep(ball);
     for (PilePair& pair : pile_.pairs()) {
         if (pair.ball != ball && (pair.other.is_surface || pair.other.index != ball)) continue;
         c.load = std::max(c.load, pair.force);
         const int other = pair.ball == ball ? pair.other.index : pair.ball;
         if (!(pair.force > 0) || pair.kind.stated() == EventKind::kRest) continue;
-        if (!pair.other.is_surface && !pile_.asleep(other)) continue;
+        if (!pair.other.is_surface && !pile_.balls().asleep(other)) continue;
         if (pair.kind.state_rest()) log_.add(event_of(pair, EventKind::kRest, now));
     }
 }
 
 bool Piles::leaves_alone(int ball, double now, const Velocities& velocities) {
-    PileBall& c = pile_.of(ball);
+    PileBall& c = pile_.balls().of(ball);
     const PilePair* floor = nullptr;
     if (c.near == 1)
         for (const PilePair& pair : pile_.pairs())
@@ -160,7 +161,7 @@ bool Piles::leaves_alone(int ball, double now, const Velocities& velocities) {
         contact = world_.contact_at(ball, floor->other, now);
         if (contact.depth > kDepthOfRadius * world_.ball(ball).radius) return false;
         if (!forms_.can_hold(ball, now, contact, velocities)) return false;
-        if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * pile_.slow_speed())
+        if (std::abs(velocities.linear.dot(contact.normal)) > 0.1 * pile_.rules().slow_speed())
             return false;
     }
     ExactBall& b = world_.ball(ball);
@@ -190,14 +191,14 @@ void Piles::state_pair(PilePair& pair, double now) {
         log_.add(e);
         ++log_.report.impacts;
     }
-    if (pair.kind.is_stated() && pair.gap > pile_.separation_gap()) {
+    if (pair.kind.is_stated() && pair.gap > pile_.rules().separation_gap()) {
         pair.kind.state_leave();
         log_.add(event_of(pair, EventKind::kLeave, now));
     }
     if (!(pair.force > 0)) return;
-    const EventKind kind = kind_of_slip(pair.slip, 0.1 * pile_.slow_speed());
+    const EventKind kind = kind_of_slip(pair.slip, 0.1 * pile_.rules().slow_speed());
     if (pair.kind.stated() == EventKind::kRest && kind == EventKind::kRoll &&
-        pair.slip < kCalmFraction * pile_.slow_speed())
+        pair.slip < kCalmFraction * pile_.rules().slow_speed())
         return;
     if (!pair.kind.persists(kind, now, kind_steps::kPile)) return;
     if (pair.kind.state(kind)) log_.add(event_of(pair, kind, now));

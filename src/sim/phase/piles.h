@@ -22,7 +22,7 @@ class Piles {
 
     /// s; infinite while there is no pile.
     double next_step() const { return next_step_; }
-    const std::vector<int>& awake() const { return pile_.awake(); }
+    const std::vector<int>& awake() const { return pile_.balls().awake(); }
 
     /// Called for each ball of an impact; one that has too many joins the pile.
     void note_impact(int ball, double now);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace carom {
 
@@ -11,6 +12,12 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
     const double g = scene.simulation.gravity.norm();
     effects["gravity"] = g > 0 ? Effect{true, fmt::format("{} m/s^2", g)}
                                : Effect{false, "simulation.gravity is [0, 0, 0]"};
+
+    if (scene.air)
+        effects["air"] = {true, fmt::format("{} kg/m^3{}", scene.air->density,
+                                            scene.air->buoyancy ? "" : ", without buoyancy")};
+    else
+        effects["air"] = {false, "the scene names none: no drag, no lift, no buoyancy"};
 
     const std::size_t surfaces = scene.surfaces.size();
     effects["surfaces"] = surfaces > 0 ? Effect{true, fmt::format("the scene has {}", surfaces)}
@@ -33,9 +40,14 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
 
     const bool spins = std::any_of(scene.balls.begin(), scene.balls.end(),
                                    [](const Ball& b) { return !b.spin.isZero(0); });
-    effects["spin"] = friction ? Effect{true, "friction turns the balls"}
-                      : spins  ? Effect{true, "a ball spins at the start; nothing changes its spin"}
-                               : Effect{false, "no ball spins at the start, no friction turns one"};
+    const bool decays =
+        scene.air && std::any_of(scene.balls.begin(), scene.balls.end(), [](const Ball& b) {
+            return b.flight.spin_decay_s < std::numeric_limits<double>::infinity();
+        });
+    effects["spin"] = decays && spins ? Effect{true, "the air takes spin away"}
+                      : friction      ? Effect{true, "friction turns the balls"}
+                      : spins ? Effect{true, "a ball spins at the start; nothing changes its spin"}
+                              : Effect{false, "no ball spins at the start, no friction turns one"};
     return effects;
 }
 
