@@ -283,7 +283,8 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (stats.frames > 0)
         film(options, interrupt, source, motion, growing ? &*growing : nullptr,
              second ? &second->run : nullptr, stats);
-    if (growing && !options.common.stats_path.empty()) {
+    // A film of the first frames does without the rest of the motion.
+    if (growing && (!options.common.stats_path.empty() || growing->is_whole())) {
         simulated = growing->finish();
         stats.sim_cpu_s += growing->cpu_s();
         say_findings(options, *scene, simulated, stats);

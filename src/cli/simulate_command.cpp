@@ -86,8 +86,8 @@ class RowProgress {
 };
 
 /// The rows of a motion as it is computed; what is written is let go.
-void write_as_computed(const SimulateOptions& options, const Scene& scene, const FrameRate& rate,
-                       const Interrupt& interrupt) {
+SimulationReport write_as_computed(const SimulateOptions& options, const Scene& scene,
+                                   const FrameRate& rate, const Interrupt& interrupt) {
     GrowingMotion motion(scene, GrowingMotion::Keep::kNeeded, interrupt.token());
     RowProgress progress(options, interrupt, motion.motion().duration);
     write_csv(options.output, options.common.existing(), interrupt, [&](const TextSink& sink) {
@@ -100,6 +100,7 @@ void write_as_computed(const SimulateOptions& options, const Scene& scene, const
         };
         write_motion_csv(motion.motion(), rate.numerator, rate.denominator, sink, {}, await);
     });
+    return motion.finish().report;
 }
 
 /// True where nothing but the rows is asked for, and they can be written as they come to be.
@@ -169,7 +170,8 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
     const FrameRate rate = row_rate(options, *scene);
     require_writable_rows(*scene, rate, scene->simulation.duration.value_or(0));
     if (needs_rows_alone(options, *scene)) {
-        write_as_computed(options, *scene, rate, interrupt);
+        stats.add_warnings(write_as_computed(options, *scene, rate, interrupt),
+                           options.common.quiet);
         return kExitDone;
     }
     SimulationResult simulated;

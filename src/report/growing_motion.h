@@ -55,6 +55,7 @@ class GrowingMotion {
     void wait_for(const MotionSpan& span, const std::function<void()>& waiting = {});
     /// Up to which instant [s] it was known at the last wait_for(); infinity: to its end.
     double known_until() const { return known_until_; }
+    bool is_whole() const { return known_until_ > motion_.duration; }
     /// Waits for the end: with Keep::kAll simulate()'s result, else its report alone. motion() is
     /// empty afterwards.
     SimulationResult finish();
