@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/against.h"
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/encoding_options.h"
@@ -16,6 +17,7 @@
 #include "cli/film_plan.h"
 #include "cli/interrupt.h"
 #include "cli/kept_work.h"
+#include "cli/layer_options.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/resume.h"
@@ -47,6 +49,7 @@ struct RenderOptions {
     AgainstOptions against;
     CommonOptions common;
     EncodingOptions encoding;
+    LayerOptions layers;
 
     /// --resume replaces what is not as it should be.
     bool replaces() const { return common.overwrite || resume; }
@@ -82,25 +85,49 @@ class Filming {
             sinks_.push_back(open_output(output, source_, encoding));
     }
 
+    /// Layers beside the frames, where they are wanted; all must outlive it.
+    void open_layers(const Scene& scene, const Motion& motion, const SecondRun* second);
+
     /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
     void film(Painter& painter);
 
     void add_to(Stats& stats) const {
         for (const auto& sink : sinks_) stats.add_sink(sink->times());
+        if (layers_) stats.layers_cpu_s = layers_->cpu_s();
     }
 
   private:
     bool has_film() const;
     void draw_all(Painter& painter, KeptWork* kept);
     void keep_partial() const;
+    void write_layers(std::int64_t frame, const Film& film);
 
     const RenderOptions& options_;
     const Interrupt& interrupt_;
     const FilmSource& source_;
     GrowingMotion* growing_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
+    std::unique_ptr<LayerFiles> layers_;  ///< null: none are wanted
+    std::int64_t frame_count_ = 0;        ///< of the whole film
     std::int64_t done_ = 0;
 };
+
+void Filming::open_layers(const Scene& scene, const Motion& motion, const SecondRun* second) {
+    if (!options_.layers.wanted()) return;
+    const std::vector<OutputRequest> outputs = requests(options_);
+    layers_ = std::make_unique<LayerFiles>(
+        scene, motion,
+        LayerSettings{scene.film.width_px, scene.film.height_px, options_.layers.kinds(), second},
+        layer_index_path(frames_for_layers(outputs), source_.frames, !options_.chunk.empty()),
+        options_.common.existing(), Durability::kUnsynced);
+    frame_count_ = frame_count(scene.film, motion.duration);
+}
+
+void Filming::write_layers(std::int64_t frame, const Film& film) {
+    const std::vector<OutputRequest> outputs = requests(options_);
+    layers_->write(sequence_path(frames_for_layers(outputs).path, frame), frame,
+                   instants_of_frame(film, frame, frame_count_));
+}
 
 void Filming::film(Painter& painter) {
     // PNGs are whole or not there; half a film must be closed to be one.
@@ -116,6 +143,7 @@ void Filming::film(Painter& painter) {
         throw Interrupted{};
     }
     for (const auto& sink : sinks_) sink->finish();
+    if (layers_) layers_->finish();
 }
 
 bool Filming::has_film() const {
@@ -136,7 +164,10 @@ void Filming::draw_all(Painter& painter, KeptWork* kept) {
                                [&] { progress.update(static_cast<double>(done_)); });
         };
     if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
+    FrameRanges::Iterator frame = source_.frames.begin();
     hooks.written = [&](std::int64_t done) {
+        if (layers_) write_layers(*frame, film);
+        ++frame;
         done_ = done;
         progress.update(static_cast<double>(done));
     };
@@ -150,6 +181,7 @@ void Filming::keep_partial() const {
     for (const auto& sink : sinks_)
         if (const std::string kept = sink->keep_partial(); !kept.empty())
             say("carom: kept {}\n", readable(kept));
+    if (layers_) layers_->finish();
 }
 
 std::string plan_text(const RenderOptions& options, const Scene& scene, const Motion& motion,
@@ -166,13 +198,24 @@ std::string plan_text(const RenderOptions& options, const Scene& scene, const Mo
     return text + needs_text(needs) + "\n";
 }
 
+/// Refuses files that exist, and what has no room.
+void check_files(const RenderOptions& options, const Scene& scene, const FrameRanges& frames,
+                 std::int64_t drawn) {
+    const std::vector<OutputRequest> outputs = requests(options);
+    check_outputs(outputs, frames, options.replaces());
+    if (options.layers.wanted())
+        require_new_layers(options.layers, frames_for_layers(outputs), frames,
+                           !options.chunk.empty(), options.common.overwrite);
+    require_room(outputs, scene, options.encoding, drawn);
+}
+
 /// What can be refused before simulating, when the scene says how long it lasts. True if nothing is
 /// left to do: a chunk without frames.
 bool is_done_early(const RenderOptions& options, const Scene& scene) {
     if (!scene.simulation.duration) return false;
     const FrameRanges frames = wanted_frames(options, scene.film, *scene.simulation.duration);
-    check_outputs(requests(options), frames, options.replaces());
-    if (!options.resume) require_room(requests(options), scene, options.encoding, frames.size());
+    // Which of them --resume draws is not known yet.
+    check_files(options, scene, frames, options.resume ? 0 : frames.size());
     return frames.empty() && !options.dry_run;
 }
 
@@ -192,11 +235,13 @@ void require_second_untouched(const RenderOptions& options, const std::string& s
 void film(const RenderOptions& options, const Interrupt& interrupt, const FilmSource& source,
           const Motion& motion, GrowingMotion* growing, const SecondRun* second, Stats& stats) {
     const Film& film = source.scene.film;
+    require_one_picture(options.layers, second);
     if (growing != nullptr) growing->wait_for(needed_for_picture(source.scene, film.start));
     Painter painter(source.scene, motion, {film.width_px, film.height_px, second});
     if (options.common.verbose) say("carom: {}\n", painter.renderer());
     Filming filming(options, interrupt, source, growing);
     filming.open();
+    filming.open_layers(source.scene, motion, second);
     filming.film(painter);
     filming.add_to(stats);
     stats.add_painter(painter);
@@ -222,12 +267,28 @@ void say_end(const Stats& stats) {
         static_cast<double>(stats.frames) / wall.count(), kept);
 }
 
+/// Why frames are drawn when the motion is known to its end; "" where they need not wait.
+std::string why_drawn_at_end(const RenderOptions& options, const FilmScenes& scenes) {
+    if (options.dry_run) return "nothing is drawn";
+    if (options.layers.wanted()) return "layers are written with the frames";
+    return why_whole_motion(scenes.scene, scenes.second.has_value());
+}
+
 int render(const RenderOptions& options, const Interrupt& interrupt) {
     Stats stats;
     check_output_names(requests(options), {{"--stats", options.common.stats_path}},
                        {{"SCENE", options.scene}, {"--against", options.against.scene}});
     require_stats_writable(options.common);
     if (options.resume) require_resumable(requests(options));
+    if (options.layers.wanted()) {
+        if (options.resume)
+            throw Failure(FailureKind::kInput,
+                          "--resume looks at pictures, not at the layers beside them: draw what is "
+                          "missing with --frames and -y");
+        const std::vector<OutputRequest> outputs = requests(options);
+        frames_for_layers(outputs);
+        require_layer_libraries(options.layers.kinds());
+    }
 
     std::optional<FilmScenes> scenes;
     {
@@ -241,8 +302,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (is_done_early(options, *scene)) return nothing_to_do(options);
     if (!options.dry_run) prepare_folders(requests(options));
 
-    const std::string why_whole =
-        options.dry_run ? "nothing is drawn" : why_whole_motion(*scene, scenes->second.has_value());
+    const std::string why_whole = why_drawn_at_end(options, *scenes);
     stats.effects["early_start"] = {why_whole.empty(),
                                     why_whole.empty() ? "frames need no later motion" : why_whole};
     SimulationResult simulated;
@@ -267,10 +327,9 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
                       wanted_frames(options, scene->film, motion.duration),
                       frame_count(scene->film, motion.duration)};
     const FrameRanges wanted = source.frames;
-    check_outputs(requests(options), wanted, options.replaces());
     if (options.resume)
         source.frames = missing_frames(requests(options), source, options.encoding, interrupt);
-    require_room(requests(options), *scene, options.encoding, source.frames.size());
+    check_files(options, *scene, wanted, source.frames.size());
     if (options.dry_run) {
         write_standard_output(plan_text(options, *scene, motion, source.frames));
         return kExitDone;
@@ -344,9 +403,11 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
                      "Frames per second, e.g. 30000/1001 (default: the scene's film.fps)")
         ->type_name("N");
     add_encoding_options(*command, options->encoding);
+    add_layer_option(*command, options->layers);
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
+    add_backend_option(*command);
     add_output_options(*command, options->common);
     add_talk_options(*command, options->common);
     command->callback([options, &run, &interrupt] {

@@ -173,6 +173,8 @@ class Resume(PartsTest):
             result = self.render(*words, "--resume", code=2)
             self.assertIn("carom join", result.stderr)
         self.assert_exit(2, run("render", self.scene, "-o", "-", "--format", "png", "--resume"))
+        result = self.render("out", "--layers", "depth", "--resume", code=2)
+        self.assertIn("layers", result.stderr)
         self.assertEqual([], self.names())
 
     def test_killed_and_resumed_is_unbroken(self):
