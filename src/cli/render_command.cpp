@@ -130,9 +130,9 @@ void Filming::write_layers(std::int64_t frame, const Film& film) {
 }
 
 void Filming::film(Painter& painter) {
-    // PNGs are whole or not there; half a film must be closed to be one.
+    // PNGs are whole or not there; half a film must be closed to be one, and layers want an index.
     std::optional<KeptWork> kept;
-    if (has_film()) kept.emplace(interrupt_, [this] { keep_partial(); });
+    if (has_film() || layers_) kept.emplace(interrupt_, [this] { keep_partial(); });
     try {
         draw_all(painter, kept ? &*kept : nullptr);
     } catch (const Failure&) {
@@ -166,7 +166,10 @@ void Filming::draw_all(Painter& painter, KeptWork* kept) {
     if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
     FrameRanges::Iterator frame = source_.frames.begin();
     hooks.written = [&](std::int64_t done) {
-        if (layers_) write_layers(*frame, film);
+        if (layers_) {
+            kept->step([&] { write_layers(*frame, film); });
+            layers_->add_to_index();
+        }
         ++frame;
         done_ = done;
         progress.update(static_cast<double>(done));

@@ -84,6 +84,7 @@ void write_layers(const StillOptions& options, const Scene& scene, const Motion&
         layer_index_beside(options.output), options.common.existing(), Durability::kSynced);
     layers.write(options.output, std::nullopt,
                  instants_of_still(scene.film, options.time, motion.duration));
+    layers.add_to_index();
     layers.finish();
     stats.layers_cpu_s = layers.cpu_s();
 }

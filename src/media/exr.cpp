@@ -166,7 +166,7 @@ class TilePipeline {
     const std::vector<std::string>& names_;
     ExrZip& zip_;
     bool begun_ = false;
-    exr_encode_pipeline_t pipeline_ = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_encode_pipeline_t pipeline_{};
 };
 
 }  // namespace

@@ -71,11 +71,12 @@ class LayerFiles::Impl {
             const auto i = static_cast<std::size_t>(place);
             write_layer(settings_.kinds[i], encoders_[i].get(), picture_path);
         });
-        frames_.push_back(
-            layer_index_frame(scene_, motion_, settings_, painter_, picture_path, frame, instants));
+        written_ =
+            layer_index_frame(scene_, motion_, settings_, painter_, picture_path, frame, instants);
         own_cpu_s_ += calling_thread_cpu_s() - begin;
     }
 
+    void add_to_index() { frames_.push_back(std::move(written_)); }
     void finish() {
         write_text_file(index_path_, layer_index(layer_index_head(scene_, settings_), frames_),
                         durability_, existing_);
@@ -101,7 +102,8 @@ class LayerFiles::Impl {
     Durability durability_;
     LayerPainter painter_;
     std::vector<std::unique_ptr<ExrEncoder>> encoders_;  ///< of each kind; none for ids
-    std::vector<std::string> frames_;
+    std::string written_;                                ///< of the last picture
+    std::vector<std::string> frames_;                    ///< of all that belong to the index
     double own_cpu_s_ = 0, others_cpu_s_ = 0;
 };
 
@@ -114,6 +116,7 @@ void LayerFiles::write(const std::string& picture_path, const std::optional<std:
                        const LayerInstants& instants) {
     impl_->write(picture_path, frame, instants);
 }
+void LayerFiles::add_to_index() { impl_->add_to_index(); }
 void LayerFiles::finish() { impl_->finish(); }
 double LayerFiles::cpu_s() const { return impl_->cpu_s(); }
 

@@ -39,10 +39,13 @@ class LayerFiles {
     LayerFiles(const LayerFiles&) = delete;
     LayerFiles& operator=(const LayerFiles&) = delete;
 
-    /// The layers of one picture; `frame`: its number, for one that has any.
+    /// The layers of one picture; `frame`: its number, for one that has any. May be left in the
+    /// middle for good: finish() knows nothing of it before add_to_index().
     void write(const std::string& picture_path, const std::optional<std::int64_t>& frame,
                const LayerInstants& instants);
-    /// Writes layers.json of all that write() has written; must be called.
+    /// The picture that was written last belongs to layers.json.
+    void add_to_index();
+    /// Writes layers.json; must be called.
     void finish();
     double cpu_s() const;
 

@@ -3,12 +3,15 @@
 import csv
 import json
 import math
+import signal
+import subprocess
+import time
 import unittest
 import zlib
 
 from exr_reading import read_exr
 from faults import FaultyTest
-from program import SOURCE, run
+from program import CAROM, SOURCE, run
 
 ALL = "depth,distance,segmentation,normals,flow,backflow,coordinates"
 RATE = 20
@@ -321,6 +324,23 @@ class Layers(FaultyTest):
             self.assertRegex(result.stderr, b"EXR files need .*package " + package)
             self.assertFalse((self.folder / "a.png").exists())
         self.assertEqual(0, self.short_of([*still, "segmentation"], FAIL_LIBRARY="OpenEXR").returncode)
+
+    def test_an_interrupt_keeps_the_frames_that_are_whole(self):
+        folder = self.folder / "long"
+        process = subprocess.Popen([CAROM, "render", SOURCE / "scenes" / "gallery" / "follow.yaml", "-o", f"{folder}/",
+                                    "--layers", ALL, "--size", "1920x1080"], stderr=subprocess.PIPE)
+        while not (folder / "frame_00002.depth.exr").exists() and process.poll() is None:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+        self.assertEqual(130, process.returncode, said)
+        frames = json.loads((folder / "layers.json").read_text())["frames"]
+        self.assertGreaterEqual(len(frames), 2)
+        self.assertIn(f"after {len(frames)} of 240 frames".encode(), said)
+        for frame in frames:
+            for name in (frame["picture"], *frame["files"].values()):
+                self.assertTrue((folder / name).is_file(), name)
+        self.assertFalse([p.name for p in folder.iterdir() if ".tmp" in p.name])
 
     def test_every_shape_of_the_gallery(self):
         # What is at the depth, and in which direction, is what the segmentation says.

@@ -9,12 +9,13 @@
 
 namespace carom {
 
+// clang-format off
 /// Every function that carom calls: X(its name).
-#define CAROM_EGL_FUNCTIONS(X)                                                           \
-    X(eglBindAPI)                                                                        \
-    X(eglCreateContext)                                                                  \
-    X(eglDestroyContext) X(eglGetCurrentContext) X(eglGetError) X(eglGetPlatformDisplay) \
-        X(eglGetProcAddress) X(eglInitialize) X(eglMakeCurrent) X(eglQueryString)
+#define CAROM_EGL_FUNCTIONS(X)                                                                    \
+    X(eglBindAPI) X(eglCreateContext) X(eglDestroyContext) X(eglGetCurrentContext)                \
+    X(eglGetError) X(eglGetPlatformDisplay) X(eglGetProcAddress) X(eglInitialize)                 \
+    X(eglMakeCurrent) X(eglQueryString)
+// clang-format on
 
 /// Each function under its own name.
 struct Egl {
