@@ -136,8 +136,7 @@ std::optional<FilmedSecond> simulate_second(const FilmScenes& scenes, const Moti
     second.run.second_name = run_name(*scenes.second, scenes.scene);
     if (second.run.first_name == second.run.second_name) second.run.second_name += " (other run)";
     check_runs(scenes.scene, second.run);
-    SimulationResult result =
-        simulate_shown(*scenes.second, interrupt, mode, "s of the other run simulated");
+    SimulationResult result = simulate_shown(*scenes.second, interrupt, mode, kSimulatingOther);
     second.motion_hash = result.motion.hash();
     second.report = std::move(result.report);
     second.run.ended_s = result.motion.duration;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <string_view>
 
+#include "cli/array_task.h"
 #include "core/failure.h"
 
 namespace carom {
@@ -24,14 +24,9 @@ std::int64_t whole_number(std::string_view text, const std::string& option) {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < 0)
-        usage(fmt::format("{}: '{}' is no whole number", option, text));
+        usage(fmt::format("{}: '{}' is no whole number; right is, for example, {}", option, text,
+                          option.starts_with("--chunk") ? "--chunk 1/4" : "0-9,20-40:2,100-"));
     return value;
-}
-
-std::int64_t from_environment(const char* name, const std::string& option) {
-    const char* text = std::getenv(name);
-    if (text == nullptr) usage(fmt::format("{}: the variable {} is not set", option, name));
-    return whole_number(text, option);
 }
 
 /// One "a", "a-b", "a-" or "a-b:step".
@@ -50,7 +45,8 @@ void add_range(std::string_view part, std::int64_t count, const std::string& opt
         last = dash + 1 == part.size() ? count - 1 : whole_number(part.substr(dash + 1), option);
     if (first >= count || last >= count)
         usage(fmt::format("{}: the film has frames 0 to {}", option, count - 1));
-    if (last < first) usage(fmt::format("{}: '{}' runs backwards", option, part));
+    if (last < first)
+        usage(fmt::format("{}: '{}' runs backwards; {}-{} is right", option, part, last, first));
     ranges.push_back({first, last, step});
 }
 
@@ -72,16 +68,18 @@ FrameRanges parse_chunk(const std::string& text, std::int64_t count) {
     const std::string option = "--chunk " + text;
     std::int64_t i = 0, n = 0;
     if (text == "auto") {
-        const std::int64_t first = from_environment("SLURM_ARRAY_TASK_MIN", option);
-        i = from_environment("SLURM_ARRAY_TASK_ID", option) - first + 1;
-        n = from_environment("SLURM_ARRAY_TASK_MAX", option) - first + 1;
+        const ArrayTask task = array_task(option);
+        i = task.place;
+        n = task.count;
     } else {
         const std::size_t slash = text.find('/');
-        if (slash == std::string::npos) usage(option + ": expected I/N, e.g. 1/4");
+        if (slash == std::string::npos) usage(option + ": expected I/N, e.g. 1/4, or auto");
         i = whole_number(std::string_view(text).substr(0, slash), option);
         n = whole_number(std::string_view(text).substr(slash + 1), option);
     }
-    if (i < 1 || i > n) usage(option + ": I must lie between 1 and N");
+    if (n < 1) usage(option + ": a film has at least one part: --chunk 1/1");
+    if (i < 1 || i > n)
+        usage(fmt::format("{}: there are the parts 1/{} to {}/{}", option, n, n, n));
     if (n > kMostChunks) usage(fmt::format("{}: at most {} chunks", option, kMostChunks));
     // floor(k F / N) in whole numbers; taken apart so that k F cannot overflow.
     const auto bound = [&](std::int64_t k) { return k * (count / n) + k * (count % n) / n; };

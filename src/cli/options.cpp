@@ -58,14 +58,15 @@ void add_progress_options(CLI::App& command, CommonOptions& options) {
     static const std::map<std::string, ProgressMode> kModes = {{"auto", ProgressMode::kAuto},
                                                                {"bar", ProgressMode::kBar},
                                                                {"plain", ProgressMode::kPlain},
-                                                               {"none", ProgressMode::kNone}};
+                                                               {"none", ProgressMode::kNone},
+                                                               {"json", ProgressMode::kJson}};
     command
         .add_option(
             "--progress", options.progress,
-            "How progress is shown on standard error: a bar, or plain lines every 5 s; auto "
-            "is a bar on a terminal")
+            "How progress is shown on standard error: a bar, plain lines every 5 s, or a line of "
+            "JSON every 0.5 s; auto is a bar on a terminal, plain elsewhere")
         ->transform(CLI::CheckedTransformer(kModes))
-        ->type_name("auto|bar|plain|none")
+        ->type_name("auto|bar|plain|none|json")
         ->default_str("auto");
     command.add_flag("-q,--quiet", options.quiet, "Errors only");
 }

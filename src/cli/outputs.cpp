@@ -10,6 +10,7 @@
 #include "cli/standard_output.h"
 #include "core/failure.h"
 #include "media/film_format.h"
+#include "media/film_part.h"
 #include "media/output_file.h"
 #include "media/output_folder.h"
 #include "media/threaded_sink.h"
@@ -137,7 +138,6 @@ FilmOptions film_options(const Scene& scene, const EncodingOptions& encoding) {
     film.preset = encoding.preset;
     film.threads = encoding.threads;
     film.title = scene.title;
-    film.comment = origin_text(scene);
     film.existing = encoding.existing;
     return film;
 }
@@ -180,8 +180,34 @@ FilmChoice chosen_film(const OutputRequest& output, const Scene& scene,
     return choose_film(name_of(output), film_options(scene, encoding));
 }
 
-std::string origin_text(const Scene& scene) {
+namespace {
+
+std::string origin_of(const Scene& scene) {
     return fmt::format("carom {}, scene {:016x}", CAROM_VERSION, scene.fingerprint);
+}
+
+/// "" where there is no second run.
+std::string against_of(const FilmSource& source) {
+    if (source.second == nullptr) return "";
+    return fmt::format("{:016x} {}", source.second->fingerprint,
+                       source.view == AgainstView::kSide ? "side" : "ghost");
+}
+
+}  // namespace
+
+std::string origin_text(const FilmSource& source, const FilmChoice& choice) {
+    const std::string origin = origin_of(source.scene);
+    const FrameRanges& frames = source.frames;
+    if (frames.empty() || frames.size() == source.count) return origin;
+    if (frames.size() != frames.back() - frames.front() + 1)
+        return fmt::format("{}, {} frames of {}", origin, frames.size(), source.count);
+    const FrameRate& fps = source.scene.film.fps;
+    FilmPart part{
+        origin, frames.front(), frames.back(), source.count, fps.numerator, fps.denominator, ""};
+    part.settings = fmt::format("{} {} {} {}", choice.codec->name, choice.level, choice.preset,
+                                pixel_format_info(choice.pixels).name);
+    if (source.second != nullptr) part.settings += ", against " + against_of(source);
+    return part.text();
 }
 
 namespace {
@@ -202,20 +228,25 @@ PngNotes png_notes(const Scene& scene, double time_s, const std::optional<double
     return notes;
 }
 
-std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,
+PngNotes frame_notes(const FilmSource& source, std::int64_t frame,
+                     const std::optional<double>& dpi) {
+    PngNotes notes = png_notes(source.scene, frame_time(source.scene.film, frame), dpi);
+    if (source.second != nullptr) notes.texts.emplace_back("Against", against_of(source));
+    return notes;
+}
+
+std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const FilmSource& source,
                                        const EncodingOptions& encoding) {
     if (!output.is_film()) {
-        const FrameNotes notes = [film = scene.film,
-                                  all = png_notes(scene, 0, encoding.dpi)](std::int64_t number) {
-            PngNotes its_own = all;
-            its_own.texts.back().second = time_text(frame_time(film, number));
-            return its_own;
+        const FrameNotes notes = [source, dpi = encoding.dpi](std::int64_t number) {
+            return frame_notes(source, number, dpi);
         };
         if (output.path == "-") return make_png_stream(notes);
         // It has threads of its own.
         return make_png_sequence(output.path, encoding.threads, encoding.existing, notes);
     }
-    const FilmOptions film = film_options(scene, encoding);
+    FilmOptions film = film_options(source.scene, encoding);
+    film.comment = origin_text(source, choose_film(name_of(output), film));
     if (output.path == "-") return make_film_stream(output.format, film, kWaitingFrames);
     return make_threaded_sink(make_film_writer(output.path, film), kWaitingFrames);
 }

@@ -58,14 +58,30 @@ void check_films(const std::vector<OutputRequest>& outputs, const Scene& scene,
 FilmChoice chosen_film(const OutputRequest& output, const Scene& scene,
                        const EncodingOptions& encoding);
 
-/// What files say of where they come from: carom's version and the scene's fingerprint.
-std::string origin_text(const Scene& scene);
+/// What a film is made from.
+struct FilmSource {
+    const Scene& scene;
+    const Scene* second = nullptr;  ///< of a film of two runs
+    AgainstView view = AgainstView::kGhost;
+    FrameRanges frames;      ///< those that are filmed ...
+    std::int64_t count = 0;  ///< ... of so many
+};
+
+/// What a film says of where it comes from: carom's version and the scene's fingerprint; of a part
+/// of the frames also which they are and how they are encoded (media/film_part.h).
+std::string origin_text(const FilmSource& source, const FilmChoice& choice);
 
 /// What a PNG of the scene at this instant says besides its pixels.
 PngNotes png_notes(const Scene& scene, double time_s, const std::optional<double>& dpi);
 
+/// What the PNG of a frame says: the same, and of two runs the other scene's fingerprint. Nothing
+/// else tells frames apart that may differ, so that those with the same notes need not be drawn
+/// again.
+PngNotes frame_notes(const FilmSource& source, std::int64_t frame,
+                     const std::optional<double>& dpi);
+
 /// Opens a sink that works on a thread of its own.
-std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const Scene& scene,
+std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const FilmSource& source,
                                        const EncodingOptions& encoding);
 
 }  // namespace carom

@@ -20,6 +20,7 @@
 #include "cli/layer_options.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/resume.h"
 #include "cli/shown_simulation.h"
 #include "cli/standard_error.h"
 #include "cli/standard_output.h"
@@ -30,6 +31,7 @@
 #include "media/output_file.h"
 #include "render/painter.h"
 #include "report/filming.h"
+#include "report/growing_motion.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -42,11 +44,15 @@ struct RenderOptions {
     std::string format = "mp4";
     std::string frames;
     std::string chunk;
+    bool resume = false;
     bool dry_run = false;
     AgainstOptions against;
     CommonOptions common;
     EncodingOptions encoding;
     LayerOptions layers;
+
+    /// --resume replaces what is not as it should be.
+    bool replaces() const { return common.overwrite || resume; }
 };
 
 FrameRanges wanted_frames(const RenderOptions& options, const Film& film, double duration) {
@@ -67,21 +73,23 @@ std::vector<OutputRequest> requests(const RenderOptions& options) {
 /// A film on its way into all its outputs.
 class Filming {
   public:
-    Filming(const RenderOptions& options, const Interrupt& interrupt, const FrameRanges& frames)
-        : options_(options), interrupt_(interrupt), frames_(frames) {}
+    /// `growing` is null where the motion is there.
+    Filming(const RenderOptions& options, const Interrupt& interrupt, const FilmSource& source,
+            GrowingMotion* growing)
+        : options_(options), interrupt_(interrupt), source_(source), growing_(growing) {}
 
-    void open(const Scene& scene) {
+    void open() {
         EncodingOptions encoding = options_.encoding;
-        encoding.existing = options_.common.existing();
+        encoding.existing = existing_of(options_.replaces());
         for (const OutputRequest& output : requests(options_))
-            sinks_.push_back(open_output(output, scene, encoding));
+            sinks_.push_back(open_output(output, source_, encoding));
     }
 
     /// Layers beside the frames, where they are wanted; all must outlive it.
     void open_layers(const Scene& scene, const Motion& motion, const SecondRun* second);
 
     /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
-    void film(Painter& painter, const Film& film);
+    void film(Painter& painter);
 
     void add_to(Stats& stats) const {
         for (const auto& sink : sinks_) stats.add_sink(sink->times());
@@ -90,13 +98,14 @@ class Filming {
 
   private:
     bool has_film() const;
-    void draw_all(Painter& painter, const Film& film, KeptWork* kept);
+    void draw_all(Painter& painter, KeptWork* kept);
     void keep_partial() const;
     void write_layers(std::int64_t frame, const Film& film);
 
     const RenderOptions& options_;
     const Interrupt& interrupt_;
-    const FrameRanges& frames_;
+    const FilmSource& source_;
+    GrowingMotion* growing_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
     std::unique_ptr<LayerFiles> layers_;  ///< null: none are wanted
     std::int64_t frame_count_ = 0;        ///< of the whole film
@@ -109,7 +118,7 @@ void Filming::open_layers(const Scene& scene, const Motion& motion, const Second
     layers_ = std::make_unique<LayerFiles>(
         scene, motion,
         LayerSettings{scene.film.width_px, scene.film.height_px, options_.layers.kinds(), second},
-        layer_index_path(frames_for_layers(outputs), frames_, !options_.chunk.empty()),
+        layer_index_path(frames_for_layers(outputs), source_.frames, !options_.chunk.empty()),
         options_.common.existing(), Durability::kUnsynced);
     frame_count_ = frame_count(scene.film, motion.duration);
 }
@@ -120,12 +129,16 @@ void Filming::write_layers(std::int64_t frame, const Film& film) {
                    instants_of_frame(film, frame, frame_count_));
 }
 
-void Filming::film(Painter& painter, const Film& film) {
+void Filming::film(Painter& painter) {
     // PNGs are whole or not there; half a film must be closed to be one, and layers want an index.
     std::optional<KeptWork> kept;
     if (has_film() || layers_) kept.emplace(interrupt_, [this] { keep_partial(); });
-    draw_all(painter, film, kept ? &*kept : nullptr);
-    if (done_ < frames_.size()) {
+    try {
+        draw_all(painter, kept ? &*kept : nullptr);
+    } catch (const Failure&) {
+        if (!interrupt_.requested()) throw;  // else it is the simulation that has stopped
+    }
+    if (done_ < source_.frames.size()) {
         keep_partial();
         throw Interrupted{};
     }
@@ -139,12 +152,19 @@ bool Filming::has_film() const {
                        [](const OutputRequest& output) { return output.is_film(); });
 }
 
-void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
-    Progress progress(options_.common.progress_mode(), interrupt_, "frames", frames_.size());
+void Filming::draw_all(Painter& painter, KeptWork* kept) {
+    const Film& film = source_.scene.film;
+    Progress progress(options_.common.progress_mode(), interrupt_, kFilming, source_.frames.size(),
+                      1 / film.fps.per_second());
     FilmingHooks hooks;
     hooks.stops = [this] { return interrupt_.requested(); };
+    if (growing_ != nullptr)
+        hooks.await = [&](double t) {
+            growing_->wait_for(needed_for_picture(source_.scene, t),
+                               [&] { progress.update(static_cast<double>(done_)); });
+        };
     if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
-    FrameRanges::Iterator frame = frames_.begin();
+    FrameRanges::Iterator frame = source_.frames.begin();
     hooks.written = [&](std::int64_t done) {
         if (layers_) {
             kept->step([&] { write_layers(*frame, film); });
@@ -154,12 +174,12 @@ void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
         done_ = done;
         progress.update(static_cast<double>(done));
     };
-    film_frames(painter, film, frames_, sinks_, hooks);
+    film_frames(painter, film, source_.frames, sinks_, hooks);
 }
 
 /// Keeps what is playable and says how far it got.
 void Filming::keep_partial() const {
-    interrupt_.reached(fmt::format("after {} of {} frames", done_, frames_.size()));
+    interrupt_.reached(fmt::format("after {} of {} frames", done_, source_.frames.size()));
     interrupt_.say();
     for (const auto& sink : sinks_)
         if (const std::string kept = sink->keep_partial(); !kept.empty())
@@ -182,13 +202,14 @@ std::string plan_text(const RenderOptions& options, const Scene& scene, const Mo
 }
 
 /// Refuses files that exist, and what has no room.
-void check_files(const RenderOptions& options, const Scene& scene, const FrameRanges& frames) {
+void check_files(const RenderOptions& options, const Scene& scene, const FrameRanges& frames,
+                 std::int64_t drawn) {
     const std::vector<OutputRequest> outputs = requests(options);
-    check_outputs(outputs, frames, options.common.overwrite);
+    check_outputs(outputs, frames, options.replaces());
     if (options.layers.wanted())
         require_new_layers(options.layers, frames_for_layers(outputs), frames,
                            !options.chunk.empty(), options.common.overwrite);
-    require_room(outputs, scene, options.encoding, frames.size());
+    require_room(outputs, scene, options.encoding, drawn);
 }
 
 /// What can be refused before simulating, when the scene says how long it lasts. True if nothing is
@@ -196,7 +217,8 @@ void check_files(const RenderOptions& options, const Scene& scene, const FrameRa
 bool is_done_early(const RenderOptions& options, const Scene& scene) {
     if (!scene.simulation.duration) return false;
     const FrameRanges frames = wanted_frames(options, scene.film, *scene.simulation.duration);
-    check_files(options, scene, frames);
+    // Which of them --resume draws is not known yet.
+    check_files(options, scene, frames, options.resume ? 0 : frames.size());
     return frames.empty() && !options.dry_run;
 }
 
@@ -212,12 +234,60 @@ void require_second_untouched(const RenderOptions& options, const std::string& s
                        {{"against", second_scene}});
 }
 
+/// Draws and writes the source's frames. `growing` is null where the motion is there.
+void film(const RenderOptions& options, const Interrupt& interrupt, const FilmSource& source,
+          const Motion& motion, GrowingMotion* growing, const SecondRun* second, Stats& stats) {
+    const Film& film = source.scene.film;
+    require_one_picture(options.layers, second);
+    if (growing != nullptr) growing->wait_for(needed_for_picture(source.scene, film.start));
+    Painter painter(source.scene, motion, {film.width_px, film.height_px, second});
+    if (options.common.verbose) say("carom: {}\n", painter.renderer());
+    Filming filming(options, interrupt, source, growing);
+    filming.open();
+    filming.open_layers(source.scene, motion, second);
+    filming.film(painter);
+    filming.add_to(stats);
+    stats.add_painter(painter);
+}
+
+/// What the simulation has to say, on standard error.
+void say_findings(const RenderOptions& options, const Scene& scene, const SimulationResult& result,
+                  Stats& stats) {
+    stats.add_warnings(result.report, options.common.quiet);
+    stats.add_verdict(scene, result.motion, options.common.quiet);
+    Stats::warn_of_unrest(result.report, options.common.quiet);
+}
+
+void say_end(const Stats& stats) {
+    if (stats.frames == 0) {
+        say("carom: all {} frames are there\n", stats.frames_kept);
+        return;
+    }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - stats.start;
+    const std::string kept =
+        stats.frames_kept > 0 ? fmt::format(", {} were there", stats.frames_kept) : "";
+    say("carom: {} frames in {:.1f} s ({:.0f} frames/s){}\n", stats.frames, wall.count(),
+        static_cast<double>(stats.frames) / wall.count(), kept);
+}
+
+/// Why frames are drawn when the motion is known to its end; "" where they need not wait.
+std::string why_drawn_at_end(const RenderOptions& options, const FilmScenes& scenes) {
+    if (options.dry_run) return "nothing is drawn";
+    if (options.layers.wanted()) return "layers are written with the frames";
+    return why_whole_motion(scenes.scene, scenes.second.has_value());
+}
+
 int render(const RenderOptions& options, const Interrupt& interrupt) {
     Stats stats;
     check_output_names(requests(options), {{"--stats", options.common.stats_path}},
                        {{"SCENE", options.scene}, {"--against", options.against.scene}});
     require_stats_writable(options.common);
+    if (options.resume) require_resumable(requests(options));
     if (options.layers.wanted()) {
+        if (options.resume)
+            throw Failure(FailureKind::kInput,
+                          "--resume looks at pictures, not at the layers beside them: draw what is "
+                          "missing with --frames and -y");
         const std::vector<OutputRequest> outputs = requests(options);
         frames_for_layers(outputs);
         require_layer_libraries(options.layers.kinds());
@@ -235,46 +305,55 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (is_done_early(options, *scene)) return nothing_to_do(options);
     if (!options.dry_run) prepare_folders(requests(options));
 
+    const std::string why_whole = why_drawn_at_end(options, *scenes);
+    stats.effects["early_start"] = {why_whole.empty(),
+                                    why_whole.empty() ? "frames need no later motion" : why_whole};
     SimulationResult simulated;
     std::optional<FilmedSecond> second;
-    {
+    std::optional<GrowingMotion> growing;
+    if (why_whole.empty()) {
+        // What --stats says is of the whole motion.
+        growing.emplace(*scene,
+                        options.common.stats_path.empty() ? GrowingMotion::Keep::kNeeded
+                                                          : GrowingMotion::Keep::kAll,
+                        interrupt.token());
+    } else {
         const CpuTimer timer(stats.sim_cpu_s);
         const ProgressMode mode = options.common.progress_mode();
         simulated = simulate_shown(*scene, interrupt, mode);
         second = simulate_second(*scenes, simulated.motion, interrupt, mode);
+        say_findings(options, *scene, simulated, stats);
     }
-    const Motion& motion = simulated.motion;
+    const Motion& motion = growing ? growing->motion() : simulated.motion;
     if (second) stats.add_second(*second);
-    stats.add_warnings(simulated.report, options.common.quiet);
-    stats.add_verdict(*scene, motion, options.common.quiet);
-    Stats::warn_of_unrest(simulated.report, options.common.quiet);
-    const FrameRanges frames = wanted_frames(options, scene->film, motion.duration);
-    check_files(options, *scene, frames);
+    FilmSource source{*scene, scenes->second ? &*scenes->second : nullptr, scenes->view,
+                      wanted_frames(options, scene->film, motion.duration),
+                      frame_count(scene->film, motion.duration)};
+    const FrameRanges wanted = source.frames;
+    if (options.resume)
+        source.frames = missing_frames(requests(options), source, options.encoding, interrupt);
+    check_files(options, *scene, wanted, source.frames.size());
     if (options.dry_run) {
-        write_standard_output(plan_text(options, *scene, motion, frames));
+        write_standard_output(plan_text(options, *scene, motion, source.frames));
         return kExitDone;
     }
-    if (frames.empty()) return nothing_to_do(options);
+    if (wanted.empty()) return nothing_to_do(options);
+    if (options.resume) remove_leftovers(requests(options), wanted);
 
-    require_one_picture(options.layers, second ? &second->run : nullptr);
-    Painter painter(*scene, motion,
-                    {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
-    if (options.common.verbose) say("carom: {}\n", painter.renderer());
-    Filming filming(options, interrupt, frames);
-    filming.open(*scene);
-    filming.open_layers(*scene, motion, second ? &second->run : nullptr);
-    filming.film(painter, scene->film);
-    stats.frames = frames.size();
-    filming.add_to(stats);
-    stats.add_painter(painter);
-
+    stats.frames = source.frames.size();
+    stats.frames_kept = wanted.size() - stats.frames;
+    if (stats.frames > 0)
+        film(options, interrupt, source, motion, growing ? &*growing : nullptr,
+             second ? &second->run : nullptr, stats);
+    // A film of the first frames does without the rest of the motion.
+    if (growing && (!options.common.stats_path.empty() || growing->is_whole())) {
+        simulated = growing->finish();
+        stats.sim_cpu_s += growing->cpu_s();
+        say_findings(options, *scene, simulated, stats);
+    }
     if (!options.common.stats_path.empty())
         write_stats(options.common, stats_json(stats, &simulated));
-    if (!options.common.quiet) {
-        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - stats.start;
-        say("carom: {} frames in {:.1f} s ({:.0f} frames/s)\n", stats.frames, wall.count(),
-            static_cast<double>(stats.frames) / wall.count());
-    }
+    if (!options.common.quiet) say_end(stats);
     return kExitDone;
 }
 
@@ -314,9 +393,13 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command
         ->add_option(
             "--chunk", options->chunk,
-            "Part I of N equal ones of the frames, or auto in a Slurm array (default: all)")
+            "Part I of N equal ones of the frames, or auto in an array of Slurm, Grid Engine or "
+            "AWS Batch (default: all)")
         ->type_name("I/N")
         ->excludes(frames);
+    command->add_flag("--resume", options->resume,
+                      "Of PNG frames, draw those that are missing, damaged or made from another "
+                      "scene, other settings or by another version, and keep the others");
     command->add_flag("--dry-run", options->dry_run, "Say what would be filmed, draw nothing");
     command
         ->add_option("--fps", options->common.fps,

@@ -5,9 +5,12 @@
 namespace carom {
 
 SimulationResult simulate_shown(const Scene& scene, const Interrupt& interrupt, ProgressMode mode,
-                                const std::string& what) {
-    Progress progress(mode, interrupt, what, scene.simulation.duration);
-    return simulate(scene, interrupt.token(), [&](double time) { progress.update(time); });
+                                const ProgressWork& work) {
+    Progress progress(mode, interrupt, work, scene.simulation.duration);
+    SimulationResult result =
+        simulate(scene, interrupt.token(), [&](double time) { progress.update(time); });
+    progress.update(result.motion.duration);
+    return result;
 }
 
 }  // namespace carom

@@ -1,8 +1,6 @@
 // A simulation that shows how far it is.
 #pragma once
 
-#include <string>
-
 #include "cli/progress.h"
 #include "sim/simulate.h"
 
@@ -12,6 +10,6 @@ class Interrupt;
 
 /// simulate(), with progress in seconds of the motion: "12.3/1000 s simulated".
 SimulationResult simulate_shown(const Scene& scene, const Interrupt& interrupt, ProgressMode mode,
-                                const std::string& what = "s simulated");
+                                const ProgressWork& work = kSimulating);
 
 }  // namespace carom

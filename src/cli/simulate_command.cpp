@@ -19,6 +19,7 @@
 #include "media/output_file.h"
 #include "media/text_file.h"
 #include "motion/csv.h"
+#include "report/growing_motion.h"
 #include "scene/frame_rate.h"
 #include "scene/scalar.h"
 
@@ -52,12 +53,68 @@ void write_csv(const std::string& path, Existing existing, const Interrupt& inte
     file.commit();
 }
 
+/// Shows how far the simulation is, and when it has ended, how far the rows are.
+class RowProgress {
+  public:
+    RowProgress(const SimulateOptions& options, const Interrupt& interrupt, double duration)
+        : options_(options), interrupt_(interrupt), duration_(duration) {
+        begin(kSimulating);
+    }
+    /// `known_until` is the simulation's time, infinity at its end; `written` that of the rows.
+    void update(double known_until, double written) {
+        if (is_simulating_ && known_until < duration_) return progress_->update(known_until);
+        if (is_simulating_) {
+            progress_->update(duration_);
+            is_simulating_ = false;
+            begin(kWritingRows);
+        }
+        progress_->update(written);
+    }
+
+  private:
+    void begin(const ProgressWork& work) {
+        progress_.reset();
+        progress_.emplace(options_.common.progress_mode(), interrupt_, work,
+                          std::optional(duration_));
+    }
+
+    const SimulateOptions& options_;
+    const Interrupt& interrupt_;
+    double duration_;
+    bool is_simulating_ = true;
+    std::optional<Progress> progress_;
+};
+
+/// The rows of a motion as it is computed; what is written is let go.
+SimulationReport write_as_computed(const SimulateOptions& options, const Scene& scene,
+                                   const FrameRate& rate, const Interrupt& interrupt) {
+    GrowingMotion motion(scene, GrowingMotion::Keep::kNeeded, interrupt.token());
+    RowProgress progress(options, interrupt, motion.motion().duration);
+    write_csv(options.output, options.common.existing(), interrupt, [&](const TextSink& sink) {
+        double written = 0;
+        const auto show = [&] { progress.update(motion.known_until(), written); };
+        const auto await = [&](double time) {
+            motion.wait_for({time, time}, show);
+            written = time;
+            show();
+        };
+        write_motion_csv(motion.motion(), rate.numerator, rate.denominator, sink, {}, await);
+    });
+    return motion.finish().report;
+}
+
+/// True where nothing but the rows is asked for, and they can be written as they come to be.
+bool needs_rows_alone(const SimulateOptions& options, const Scene& scene) {
+    return options.events.empty() && options.common.stats_path.empty() && !scene.test &&
+           scene.simulation.duration && why_known_at_end(scene).empty();
+}
+
 /// The motion and, where they are wanted, the events.
 void write_results(const SimulateOptions& options, const Motion& motion, const FrameRate& rate,
                    const Interrupt& interrupt) {
     const Existing existing = options.common.existing();
     write_csv(options.output, existing, interrupt, [&](const TextSink& sink) {
-        Progress progress(options.common.progress_mode(), interrupt, "s written",
+        Progress progress(options.common.progress_mode(), interrupt, kWritingRows,
                           std::optional(motion.duration));
         write_motion_csv(motion, rate.numerator, rate.denominator, sink,
                          [&](double time) { progress.update(time); });
@@ -112,6 +169,11 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
     if (!scene) return kExitInvalidScene;
     const FrameRate rate = row_rate(options, *scene);
     require_writable_rows(*scene, rate, scene->simulation.duration.value_or(0));
+    if (needs_rows_alone(options, *scene)) {
+        stats.add_warnings(write_as_computed(options, *scene, rate, interrupt),
+                           options.common.quiet);
+        return kExitDone;
+    }
     SimulationResult simulated;
     {
         const CpuTimer timer(stats.sim_cpu_s);

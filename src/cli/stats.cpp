@@ -116,6 +116,7 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
                      {"write", stats.sinks.write_cpu_s}};
     if (stats.layers_cpu_s) json["cpu_s"]["layers"] = *stats.layers_cpu_s;
     json["frames"] = stats.frames;
+    if (stats.frames_kept > 0) json["frames_kept"] = stats.frames_kept;
     json["steps"] = result != nullptr ? result->report.steps : 0;
     json["impacts"] = result != nullptr ? result->report.impacts : 0;
     std::map<std::string, Effect> effects = stats.effects;

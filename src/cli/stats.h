@@ -23,6 +23,7 @@ struct Stats {
     std::optional<double> layers_cpu_s;  ///< where layers are written
     SinkTimes sinks;
     std::int64_t frames = 0;
+    std::int64_t frames_kept = 0;  ///< of --resume: they were there
     std::string renderer;
     std::optional<ReboundVerdict> verdict;  ///< of the scene's test, if it has one
     std::map<std::string, Effect> effects;  ///< of the simulation and of the picture

@@ -48,10 +48,8 @@ void FilmMuxer::CloseContext::operator()(AVFormatContext* context) const {
 std::string pipe_url(int descriptor) { return fmt::format("pipe:{}", descriptor); }
 
 FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const FilmFormat& format,
-                     const VideoEncoder& video, const std::string& title,
-                     const std::string& comment)
-    : path_(path), encoder_time_base_(video.context().time_base) {
-    const AVCodecContext& encoder = video.context();
+                     const FilmStream& film, const std::string& title, const std::string& comment)
+    : path_(path), time_base_(film.time_base) {
     const LibavMessages messages;
     AVFormatContext* context = nullptr;
     check(libav().avformat_alloc_output_context2(&context, nullptr, format.container, url.c_str()),
@@ -64,15 +62,16 @@ FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const Film
     context->strict_std_compliance = FF_COMPLIANCE_UNOFFICIAL;
 
     AVStream* stream = allocated(libav().avformat_new_stream(context, nullptr));
-    check(libav().avcodec_parameters_from_context(stream->codecpar, &encoder),
+    check(libav().avcodec_parameters_copy(stream->codecpar, film.parameters.get()),
           "describe the stream of", messages);
-    stream->time_base = encoder.time_base;
-    stream->avg_frame_rate = encoder.framerate;
-    stream->r_frame_rate = encoder.framerate;
+    const AVRational frame_rate = {time_base_.den, time_base_.num};
+    stream->time_base = time_base_;
+    stream->avg_frame_rate = frame_rate;
+    stream->r_frame_rate = frame_rate;
     // Apple's players want H.265 with its parameter sets in the index alone, and this name says so.
-    if (encoder.codec_id == AV_CODEC_ID_HEVC && format.times == FilmTimes::kExact)
+    if (film.parameters->codec_id == AV_CODEC_ID_HEVC && format.times == FilmTimes::kExact)
         stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
-    if (video.alpha_beside()) stream->codecpar->format = AV_PIX_FMT_YUVA420P;
+    if (film.alpha_beside) stream->codecpar->format = AV_PIX_FMT_YUVA420P;
     set_text("title", title);
     set_text("comment", comment);
 
@@ -89,7 +88,7 @@ void FilmMuxer::write_header(const FilmFormat& format, bool into_pipe) {
     const LibavMessages messages;
     Options options;
     if (format.times == FilmTimes::kExact) {
-        const std::string scale = std::to_string(exact_time_scale(encoder_time_base_));
+        const std::string scale = std::to_string(exact_time_scale(time_base_));
         // delay_moov: the index is written when the first times are known, so that it can say that
         // the film begins at 0 although its first packet is decoded earlier.
         options.set("movflags",
@@ -110,7 +109,7 @@ void FilmMuxer::check(int result, const char* action, const LibavMessages& messa
 
 void FilmMuxer::write(AVPacket& packet) {
     const LibavMessages messages;
-    libav().av_packet_rescale_ts(&packet, encoder_time_base_, context_->streams[0]->time_base);
+    libav().av_packet_rescale_ts(&packet, time_base_, context_->streams[0]->time_base);
     packet.stream_index = 0;
     check(libav().av_interleaved_write_frame(context_.get(), &packet), "write", messages);
     check(context_->pb->error, "write", messages);

@@ -6,12 +6,18 @@
 
 #include "media/film_format.h"
 #include "media/libav.h"
-#include "media/video_encoder.h"
 
 namespace carom {
 
 /// FFmpeg's name of an open descriptor.
 std::string pipe_url(int descriptor);
+
+/// What the packets are that a film is made of.
+struct FilmStream {
+    ParametersPtr parameters;
+    AVRational time_base;       ///< of the packets: 1 / frame rate
+    bool alpha_beside = false;  ///< packets carry their alpha beside them (vp9_alpha.h)
+};
 
 /// Writes one stream of packets into a file.
 ///
@@ -23,14 +29,14 @@ class FilmMuxer {
     /// Writes to `url` (libav_url() or pipe_url()); `path` is for messages. `title` and `comment`
     /// may be empty. Throws Failure(kOutput).
     FilmMuxer(const std::string& url, const std::string& path, const FilmFormat& format,
-              const VideoEncoder& video, const std::string& title, const std::string& comment);
+              const FilmStream& film, const std::string& title, const std::string& comment);
     ~FilmMuxer();
     FilmMuxer(const FilmMuxer&) = delete;
     FilmMuxer& operator=(const FilmMuxer&) = delete;
 
     static bool wants_global_header(const FilmFormat& format);
 
-    void write(AVPacket& packet);  ///< times in the encoder's time base; takes the packet's content
+    void write(AVPacket& packet);  ///< times in FilmStream::time_base; takes the packet's content
     void close();                  ///< the rest of the file; everything is written or it throws
 
   private:
@@ -43,7 +49,7 @@ class FilmMuxer {
     };
     std::string path_;
     std::unique_ptr<AVFormatContext, CloseContext> context_;
-    AVRational encoder_time_base_;
+    AVRational time_base_;
 };
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "media/film_input.h"
 #include "media/libav.h"
 #include "media/straight_alpha.h"
 
@@ -14,11 +15,6 @@ namespace carom {
 namespace {
 
 constexpr std::int64_t kMostPixels = 100'000'000;
-
-struct CloseInput {
-    void operator()(AVFormatContext* context) const { libav().avformat_close_input(&context); }
-};
-using InputPtr = std::unique_ptr<AVFormatContext, CloseInput>;
 
 /// The matrix that the frame names, or the one that players take where it names none: BT.709 for
 /// high definition, else BT.601.
@@ -35,17 +31,9 @@ constexpr int kLeftChroma = 0, kBetweenRows = 128;
 
 class FilmReader::Impl {
   public:
-    explicit Impl(std::string path) : path_(std::move(path)) {
+    explicit Impl(std::string path) : input_(std::move(path)) {
         const LibavMessages messages;
-        AVFormatContext* input = nullptr;
-        check(libav().avformat_open_input(&input, libav_url(path_).c_str(), nullptr, nullptr),
-              messages);
-        input_.reset(input);
-        check(libav().avformat_find_stream_info(input, nullptr), messages);
-        const AVCodec* codec = nullptr;
-        stream_ = libav().av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
-        check(stream_, messages);
-        open_decoder(with_alpha(codec), messages);
+        open_decoder(with_alpha(input_.decoder()), messages);
         packet_.reset(allocated(libav().av_packet_alloc()));
         frame_.reset(allocated(libav().av_frame_alloc()));
     }
@@ -65,7 +53,7 @@ class FilmReader::Impl {
         }
     }
 
-    double tick_s() const { return av_q2d(input_->streams[stream_]->time_base); }
+    double tick_s() const { return av_q2d(input_.stream().time_base); }
     /// A stamp is off by up to half a tick, and so is the first one unless it is 0.
     double time_error_s() const { return first_pts_ == 0 ? tick_s() / 2 : tick_s(); }
     double time_s() const {
@@ -76,16 +64,13 @@ class FilmReader::Impl {
     }
 
   private:
-    void check(int result, const LibavMessages& messages) const {
-        if (result < 0) throw_libav(FailureKind::kInput, "read the film", path_, result, messages);
-    }
+    void check(int result, const LibavMessages& messages) const { input_.check(result, messages); }
 
     /// FFmpeg's own decoder of VP9 leaves the alpha out that stands beside the pictures; libvpx
     /// does not.
     const AVCodec* with_alpha(const AVCodec* codec) const {
-        const AVStream& stream = *input_->streams[stream_];
-        if (stream.codecpar->codec_id != AV_CODEC_ID_VP9) return codec;
-        if (libav().av_dict_get(stream.metadata, "alpha_mode", nullptr, 0) == nullptr) return codec;
+        if (input_.stream().codecpar->codec_id != AV_CODEC_ID_VP9) return codec;
+        if (input_.stream_text("alpha_mode").empty()) return codec;
         const AVCodec* libvpx = libav().avcodec_find_decoder_by_name("libvpx-vp9");
         return libvpx == nullptr ? codec : libvpx;
     }
@@ -95,27 +80,20 @@ class FilmReader::Impl {
         decoder_->max_pixels = kMostPixels;
         decoder_->err_recognition = AV_EF_EXPLODE;  // a damaged frame must not pass for a whole one
         decoder_->thread_count = 1;  // more would hold more frames; nobody waits for the reader
-        check(libav().avcodec_parameters_to_context(decoder_.get(),
-                                                    input_->streams[stream_]->codecpar),
+        check(libav().avcodec_parameters_to_context(decoder_.get(), input_.stream().codecpar),
               messages);
         check(libav().avcodec_open2(decoder_.get(), codec, nullptr), messages);
     }
 
     /// Gives the decoder the next packet, or the end.
     void feed(const LibavMessages& messages) {
-        while (true) {
-            const int result = libav().av_read_frame(input_.get(), packet_.get());
-            if (result == AVERROR_EOF) {
-                check(libav().avcodec_send_packet(decoder_.get(), nullptr), messages);
-                return;
-            }
-            check(result, messages);
-            const bool ours = packet_->stream_index == stream_;
-            const int sent = ours ? libav().avcodec_send_packet(decoder_.get(), packet_.get()) : 0;
-            libav().av_packet_unref(packet_.get());
-            check(sent, messages);
-            if (ours) return;
+        if (!input_.read(*packet_)) {
+            check(libav().avcodec_send_packet(decoder_.get(), nullptr), messages);
+            return;
         }
+        const int sent = libav().avcodec_send_packet(decoder_.get(), packet_.get());
+        libav().av_packet_unref(packet_.get());
+        check(sent, messages);
     }
 
     /// The scaler for frames of this size and format, made anew when they change.
@@ -161,9 +139,7 @@ class FilmReader::Impl {
             premultiply_image(image);
     }
 
-    std::string path_;
-    InputPtr input_;
-    int stream_ = 0;
+    FilmInput input_;
     CodecPtr decoder_;
     PacketPtr packet_;
     FramePtr frame_;

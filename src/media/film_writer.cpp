@@ -18,7 +18,8 @@ class FilmEncoding {
     /// `url` is where the container goes; `path` is for messages.
     FilmEncoding(const std::string& url, const std::string& path, const FilmFormat& format,
                  VideoEncoder& encoder, const FilmOptions& options)
-        : encoder_(encoder), muxer_(url, path, format, encoder, options.title, options.comment) {}
+        : encoder_(encoder),
+          muxer_(url, path, format, encoder.stream(), options.title, options.comment) {}
 
     void write(const Image& frame) {
         encoder_.encode(frame, [this](AVPacket& packet) { mux(packet); });

@@ -29,7 +29,7 @@ class FrameConverter {
     Image straight_;
     StraightAlpha straight_alpha_;
     Yuv420Converter yuv420_;
-    Palette palette_;
+    FilmPalette palette_;
 };
 
 }  // namespace carom

@@ -13,11 +13,13 @@ namespace carom {
 
 struct LibavFree {
     void operator()(AVCodecContext* p) const { libav().avcodec_free_context(&p); }
+    void operator()(AVCodecParameters* p) const { libav().avcodec_parameters_free(&p); }
     void operator()(AVFrame* p) const { libav().av_frame_free(&p); }
     void operator()(AVPacket* p) const { libav().av_packet_free(&p); }
     void operator()(SwsContext* p) const { libav().sws_freeContext(p); }
 };
 using CodecPtr = std::unique_ptr<AVCodecContext, LibavFree>;
+using ParametersPtr = std::unique_ptr<AVCodecParameters, LibavFree>;
 using FramePtr = std::unique_ptr<AVFrame, LibavFree>;
 using PacketPtr = std::unique_ptr<AVPacket, LibavFree>;
 using ScalerPtr = std::unique_ptr<SwsContext, LibavFree>;

@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kTemporary = ".tmp";  // then the process's number
+
 [[noreturn]] void fail(const std::string& action, const std::string& path, int error) {
     throw Failure(FailureKind::kOutput,
                   fmt::format("cannot {} '{}': {}", action, path, std::strerror(error)));
@@ -123,7 +125,8 @@ std::string create_temporary(const std::string& path, const std::string& target)
         const std::string count = attempt == 0 ? "" : fmt::format("-{}", attempt);
         const std::string temporary =
             (fs::path(target).parent_path() /
-             fitting_name("." + name.stem().string(), fmt::format(".tmp{}{}", ::getpid(), count),
+             fitting_name("." + name.stem().string(),
+                          fmt::format("{}{}{}", kTemporary, ::getpid(), count),
                           name.extension().string(), longest))
                 .string();
         const Descriptor file(
@@ -266,6 +269,17 @@ void OutputFile::discard() noexcept {
         temporaries::forget(temporary_path_);
     }
     temporary_path_.clear();
+}
+
+std::string name_of_temporary(const std::string& name) {
+    if (!name.starts_with('.')) return "";
+    const std::string extension = fs::path(name).extension().string();
+    const std::string stem = name.substr(1, name.size() - extension.size() - 1);
+    const std::size_t mark = stem.rfind(kTemporary);
+    if (mark == std::string::npos) return "";
+    const std::string digits = stem.substr(mark + std::strlen(kTemporary));
+    if (digits.empty() || digits.find_first_not_of("0123456789-") != std::string::npos) return "";
+    return stem.substr(0, mark) + extension;
 }
 
 std::string partial_path(const std::string& path, int number) {

@@ -65,6 +65,10 @@ class OutputFile {
     bool in_place_ = false;  ///< the target is a device or a pipe
 };
 
+/// The name that a file would have got whose temporary one is `name`; "" where that is none. For
+/// what a process has left that was killed.
+std::string name_of_temporary(const std::string& name);
+
 /// OUT.partial.EXT for OUT.EXT, OUT.partial-2.EXT ... for further ones; of OUT as much as the file
 /// system takes.
 std::string partial_path(const std::string& path, int number = 1);

@@ -66,9 +66,9 @@ struct Box {
 
 }  // namespace
 
-Palette::Palette() : bins_(kBins), known_(std::size_t{1} << kKnownBits) {}
+FilmPalette::FilmPalette() : bins_(kBins), known_(std::size_t{1} << kKnownBits) {}
 
-std::vector<Palette::Shade> Palette::count(const Image& image) {
+std::vector<FilmPalette::Shade> FilmPalette::count(const Image& image) {
     std::vector<Bin> here(kBins);
     for (std::size_t i = 0; i < image.bgra.size(); i += 4) {
         if (image.bgra[i + 3] < kOpaque) continue;
@@ -91,7 +91,7 @@ std::vector<Palette::Shade> Palette::count(const Image& image) {
     return shades;
 }
 
-std::vector<Palette::Shade> Palette::all_shades() const {
+std::vector<FilmPalette::Shade> FilmPalette::all_shades() const {
     std::vector<Shade> shades;
     for (const Bin& bin : bins_) {
         if (bin.pixels == 0) continue;
@@ -102,7 +102,7 @@ std::vector<Palette::Shade> Palette::all_shades() const {
     return shades;
 }
 
-int Palette::nearest(int b, int g, int r) const {
+int FilmPalette::nearest(int b, int g, int r) const {
     int best = 0, least = std::numeric_limits<int>::max();
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
         const int db = chosen_[i].b - b, dg = chosen_[i].g - g, dr = chosen_[i].r - r;
@@ -112,7 +112,7 @@ int Palette::nearest(int b, int g, int r) const {
     return best;
 }
 
-double Palette::error_of(const std::vector<Shade>& shades) const {
+double FilmPalette::error_of(const std::vector<Shade>& shades) const {
     double sum = 0, weight = 0;
     for (const Shade& s : shades) {
         const Colour& c = chosen_[static_cast<std::size_t>(
@@ -125,7 +125,7 @@ double Palette::error_of(const std::vector<Shade>& shades) const {
     return weight > 0 ? sum / weight : 0;
 }
 
-void Palette::choose(const std::vector<Shade>& all) {
+void FilmPalette::choose(const std::vector<Shade>& all) {
     std::vector<Shade> shades = all;
     std::vector<Box<Shade>> boxes = {Box<Shade>(shades, 0, shades.size())};
     while (boxes.size() < kMostColours) {
@@ -159,7 +159,7 @@ void Palette::choose(const std::vector<Shade>& all) {
 }
 
 /// One round of k-means: each colour goes to the mean of the shades that are nearest to it.
-void Palette::move_to_means(const std::vector<Shade>& shades) {
+void FilmPalette::move_to_means(const std::vector<Shade>& shades) {
     std::vector<Shade> sums(chosen_.size(), Shade{0, 0, 0, 0});
     for (const Shade& s : shades) {
         Shade& sum = sums[static_cast<std::size_t>(nearest(static_cast<int>(std::lround(s.b)),
@@ -177,7 +177,7 @@ void Palette::move_to_means(const std::vector<Shade>& shades) {
     }
 }
 
-Palette::Pattern Palette::make_pattern(std::uint32_t colour) const {
+FilmPalette::Pattern FilmPalette::make_pattern(std::uint32_t colour) const {
     const int wanted[3] = {static_cast<int>(colour & 255), static_cast<int>(colour >> 8 & 255),
                            static_cast<int>(colour >> 16 & 255)};
     int missing[3] = {0, 0, 0};  // what the entries so far owe to the colour
@@ -198,15 +198,15 @@ Palette::Pattern Palette::make_pattern(std::uint32_t colour) const {
     return pattern;
 }
 
-const Palette::Pattern& Palette::pattern_of(std::uint32_t colour) {
+const FilmPalette::Pattern& FilmPalette::pattern_of(std::uint32_t colour) {
     // Fibonacci hashing: neighbouring colours get places far apart.
     Known& known = known_[static_cast<std::uint32_t>(colour * 2654435769U) >> (32 - kKnownBits)];
     if (!known.valid || known.colour != colour) known = {colour, true, make_pattern(colour)};
     return known.pattern;
 }
 
-void Palette::convert(const Image& image, std::uint8_t* indices, std::ptrdiff_t stride,
-                      std::array<std::uint32_t, 256>& colours) {
+void FilmPalette::convert(const Image& image, std::uint8_t* indices, std::ptrdiff_t stride,
+                          std::array<std::uint32_t, 256>& colours) {
     const std::vector<Shade> shades = count(image);
     if (!shades.empty() && (chosen_.empty() || error_of(shades) > kWorse * error_ + kWorseBy)) {
         const std::vector<Shade> all = all_shades();

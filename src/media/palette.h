@@ -23,11 +23,11 @@ namespace carom {
 /// expired), sorted by luma, and placed by a 4x4 Bayer matrix.
 ///
 /// One entry is transparent; pixels of less than half alpha get it.
-class Palette {
+class FilmPalette {
   public:
     static constexpr int kTransparent = 255;  ///< its index
 
-    Palette();
+    FilmPalette();
 
     /// Indices of `image`, and in `colours` the palette as 0xAARRGGBB.
     void convert(const Image& image, std::uint8_t* indices, std::ptrdiff_t stride,

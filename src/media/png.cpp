@@ -1,10 +1,14 @@
 #include "media/png.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "core/check.h"
@@ -25,11 +29,10 @@ bool is_opaque(const Image& image) {
 }
 
 /// What stands before the pixels: head, colour space, physical size, texts.
-void write_head(png_structp png, png_infop info, const Image& image, bool opaque,
+void write_head(png_structp png, png_infop info, int width_px, int height_px, bool opaque,
                 const PngNotes& notes, const std::string& texts) {
-    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
-                 static_cast<png_uint_32>(image.height_px), 8,
-                 opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width_px), static_cast<png_uint_32>(height_px),
+                 8, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (notes.pixels_per_m > 0) {
@@ -75,7 +78,7 @@ std::string encode_small(const Image& image, const PngNotes& notes) {
         png_set_compression_buffer_size(png, kChunkBytes);
         png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_ALL_FILTERS);
         png_set_compression_level(png, 9);
-        write_head(png, info, image, opaque, notes, texts);
+        write_head(png, info, image.width_px, image.height_px, opaque, notes, texts);
         if (opaque) {  // the fourth byte is dropped
             png_set_filler(png, 0, PNG_FILLER_AFTER);
             png_set_bgr(png);
@@ -104,7 +107,7 @@ std::string encode_fast(const Image& image, PngRows& rows, const PngNotes& notes
 
     const bool done = guarded(png, [&] {
         png_set_write_fn(png, bytes, carom_png_append, nullptr);
-        write_head(png, info, image, rows.opaque(), notes, texts);
+        write_head(png, info, image.width_px, image.height_px, rows.opaque(), notes, texts);
         constexpr std::size_t kChunkBytes = 1 << 20;
         for (std::size_t at = 0; at < data.size(); at += kChunkBytes)
             png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), idat + at,
@@ -113,6 +116,40 @@ std::string encode_fast(const Image& image, PngRows& rows, const PngNotes& notes
     });
     if (!done) fail_encoding(image, writer.text());
     return std::move(writer.bytes());
+}
+
+/// All that stands before the pixels.
+std::string head_bytes(int width_px, int height_px, bool opaque, const PngNotes& notes) {
+    const std::string texts = text_chunks(notes);
+    PngWriter writer;
+    std::string* bytes = &writer.bytes();
+    png_structp png = writer.png();
+    png_infop info = writer.info();
+    const bool done = guarded(png, [&] {
+        png_set_write_fn(png, bytes, carom_png_append, nullptr);
+        write_head(png, info, width_px, height_px, opaque, notes, texts);
+    });
+    return done ? std::move(writer.bytes()) : "";
+}
+
+/// True where `bytes` from `at` on are IDAT chunks and an IEND (PNG, third edition, 5.3), all with
+/// the right checksums, and no byte more.
+bool are_whole_chunks(const std::string& bytes, std::size_t at) {
+    constexpr std::size_t kAround = 12;  // length, name, checksum
+    const auto* data = reinterpret_cast<png_const_bytep>(bytes.data());
+    bool pixels = false;
+    while (bytes.size() - at >= kAround) {
+        const std::size_t size = png_get_uint_32(data + at);
+        if (size > bytes.size() - at - kAround) return false;
+        const std::string_view name(bytes.data() + at + 4, 4);
+        const uLong sum = crc32_z(0, data + at + 4, size + 4);
+        if (sum != png_get_uint_32(data + at + 8 + size)) return false;
+        at += size + kAround;
+        if (name == "IEND") return pixels && size == 0 && at == bytes.size();
+        if (name != "IDAT") return false;
+        pixels = true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -135,6 +172,16 @@ std::string PngEncoder::encode(const Image& image, const PngNotes& notes) {
 void write_png(const std::string& path, const Image& image, PngEffort effort, Durability durability,
                Existing existing, const PngNotes& notes) {
     write_text_file(path, encode_png(image, effort, notes), durability, existing);
+}
+
+bool is_whole_png(const std::string& path, int width_px, int height_px, const PngNotes& notes) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    for (const bool opaque : {true, false}) {
+        const std::string head = head_bytes(width_px, height_px, opaque, notes);
+        if (!head.empty() && bytes.starts_with(head)) return are_whole_chunks(bytes, head.size());
+    }
+    return false;
 }
 
 }  // namespace carom

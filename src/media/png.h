@@ -34,6 +34,11 @@ void write_png(const std::string& path, const Image& image, PngEffort effort = P
 std::string encode_png(const Image& image, PngEffort effort = PngEffort::kFast,
                        const PngNotes& notes = {});
 
+/// True where the file at `path` is, as far as its checksums tell, the PNG that write_png() or
+/// PngEncoder makes of a picture of this size with these notes: its head is the same byte for byte,
+/// and behind it nothing is missing, damaged or too much. Pixels are not decoded.
+bool is_whole_png(const std::string& path, int width_px, int height_px, const PngNotes& notes);
+
 /// Encodes frame after frame as kFast does, with the same bytes, and works only on the rows that
 /// differ from the frame before. Keeps one picture.
 class PngEncoder {

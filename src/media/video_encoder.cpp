@@ -78,6 +78,16 @@ int VideoEncoder::open(const FilmChoice& choice, const FilmOptions& options, int
     return result;
 }
 
+FilmStream VideoEncoder::stream() const {
+    FilmStream stream;
+    stream.parameters.reset(allocated(libav().avcodec_parameters_alloc()));
+    if (libav().avcodec_parameters_from_context(stream.parameters.get(), context_.get()) < 0)
+        throw std::bad_alloc();
+    stream.time_base = context_->time_base;
+    stream.alpha_beside = alpha_.has_value();
+    return stream;
+}
+
 void VideoEncoder::encode(const Image& image, const TakePacket& take) {
     CAROM_CHECK(image.width_px, ==, context_->width);
     CAROM_CHECK(image.height_px, ==, context_->height);

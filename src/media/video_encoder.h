@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "media/film_choice.h"
+#include "media/film_muxer.h"
 #include "media/frame_converter.h"
 #include "media/libav.h"
 #include "media/thread_clock.h"
@@ -32,9 +33,8 @@ class VideoEncoder {
     /// Gives the rest of the packets; nothing may be encoded after it.
     void flush(const TakePacket& take);
 
-    const AVCodecContext& context() const { return *context_; }
-    /// Packets carry their alpha beside them.
-    bool alpha_beside() const { return alpha_.has_value(); }
+    /// What its packets are, for a container.
+    FilmStream stream() const;
     std::int64_t frames() const { return frames_; }
     double convert_cpu_s() const { return convert_cpu_s_; }
     /// The caller's time in the encoder, and that of the threads that the encoder started.

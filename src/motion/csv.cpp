@@ -67,7 +67,8 @@ void motion_rows(const Motion& motion, double time, Rows& rows) {
 }  // namespace
 
 void write_motion_csv(const Motion& motion, int rate_numerator, int rate_denominator,
-                      const TextSink& sink, const std::function<void(double)>& progress) {
+                      const TextSink& sink, const std::function<void(double)>& progress,
+                      const std::function<void(double)>& await) {
     Rows rows(sink);
     std::int64_t told = 0;
     rows.text("time,ball,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
@@ -81,11 +82,13 @@ void write_motion_csv(const Motion& motion, int rate_numerator, int rate_denomin
     for (std::int64_t k = 0; k <= last; ++k) {
         if (k == last && std::abs(intervals - static_cast<double>(k)) <= kSlack) break;
         const double time = static_cast<double>(k) * rate_denominator / rate_numerator;
+        if (await) await(time);
         motion_rows(motion, time, rows);
         if (!progress || rows.pieces() == told) continue;
         told = rows.pieces();
         progress(time);
     }
+    if (await) await(motion.duration);
     motion_rows(motion, motion.duration, rows);
     rows.flush();
 }

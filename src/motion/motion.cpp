@@ -84,6 +84,15 @@ void Trajectory::append(Piece piece) {
     pieces_.push_back(std::move(piece));
 }
 
+void Trajectory::let_go_before(double t) {
+    constexpr std::size_t kFew = 16;
+    if (pieces_.size() < kFew) return;
+    // Half of them at least, so that each is moved once.
+    const std::size_t index = piece_index(t);
+    if (2 * index < pieces_.size()) return;
+    pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
 std::size_t Trajectory::piece_index(double t) const {
     CAROM_CHECK(pieces_.size(), >, 0u);
     const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), t,

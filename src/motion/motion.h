@@ -112,6 +112,8 @@ class Trajectory {
     void reserve(std::size_t pieces) { pieces_.reserve(pieces); }
     BallState at(double t) const;
     const std::vector<Piece>& pieces() const { return pieces_; }
+    /// May let pieces go that end before t: at() holds from there on. Costs little if called often.
+    void let_go_before(double t);
     /// Index of the piece that holds at t: the last one with start <= t.
     std::size_t piece_index(double t) const;
 

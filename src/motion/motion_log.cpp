@@ -14,7 +14,8 @@ void MotionLog::append(int ball, const Piece& piece) {
 }
 
 void MotionLog::move_into(std::vector<Trajectory>& balls) {
-    for (std::size_t i = 0; i < balls.size(); ++i) balls[i].reserve(pieces_of_[i]);
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        if (balls[i].pieces().empty()) balls[i].reserve(pieces_of_[i]);
     for (std::vector<Entry>& chunk : chunks_) {
         for (Entry& e : chunk) balls[static_cast<std::size_t>(e.ball)].append(std::move(e.piece));
         chunk = {};  // its memory is free for the trajectories

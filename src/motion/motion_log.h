@@ -16,8 +16,13 @@ class MotionLog {
 
     void append(int ball, const Piece& piece);
 
-    /// Moves all pieces into the balls' trajectories: Trajectory::append() in the same order.
+    /// Moves all pieces into the balls' trajectories: Trajectory::append() in the same order. What
+    /// comes later goes behind them.
     void move_into(std::vector<Trajectory>& balls);
+    std::size_t pieces() const {
+        return chunks_.empty() ? 0 : (chunks_.size() - 1) * kChunk + chunks_.back().size();
+    }
+    std::size_t balls() const { return pieces_of_.size(); }
 
   private:
     struct Entry {

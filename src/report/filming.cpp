@@ -15,7 +15,11 @@ std::int64_t film_frames(Painter& painter, const Film& film, const FrameRanges& 
     Image picture;
     for (const std::int64_t frame : frames) {
         if (hooks.stops && hooks.stops()) break;
-        const auto draw = [&] { painter.paint(frame_time(film, frame), picture); };
+        const auto draw = [&] {
+            const double t = frame_time(film, frame);
+            if (hooks.await) hooks.await(t);
+            painter.paint(t, picture);
+        };
         if (hooks.run_drawing)
             hooks.run_drawing(draw);
         else

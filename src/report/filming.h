@@ -16,6 +16,9 @@ namespace carom {
 /// What goes on beside it; each may be empty.
 struct FilmingHooks {
     std::function<bool()> stops;  ///< asked before each frame; true ends the loop
+    /// Called before the instant t [s] is drawn, as a part of what draws it: returns when the
+    /// motion is known as far as that needs.
+    std::function<void(double t)> await;
     /// Runs what draws a frame: it may take long, and may be left in the middle for good.
     std::function<void(const std::function<void()>& draw)> run_drawing;
     std::function<void(std::int64_t done)> written;  ///< after each frame

@@ -1,9 +1,12 @@
 #include "sim/simulate.h"
 
-#include "sim/exact/exact.h"
+#include <utility>
+
+#include "core/check.h"
 #include "sim/fixed/fixed.h"
 #include "sim/nearby_origin.h"
 #include "sim/pipe_halves.h"
+#include "sim/record/peaks.h"
 
 namespace carom {
 
@@ -28,6 +31,29 @@ SimulationResult simulate_near_origin(const Scene& scene, const std::stop_token&
 }
 
 }  // namespace
+
+std::string why_known_at_end(const Scene& scene) {
+    if (scene.simulation.method == Method::kFixed)
+        return "steps become pieces when it is known how far these reach (method: fixed)";
+    if (!nearby_origin(scene).isZero(0)) return "the motion is computed about another origin";
+    if (!with_pipe_halves(scene).whole.empty()) return "pipes are computed as halves";
+    return "";
+}
+
+SimulationResult simulate_piecewise(const Scene& scene, const std::stop_token& stop,
+                                    const PieceTap& tap) {
+    CAROM_CHECK(why_known_at_end(scene), ==, "");
+    ExactOptions options;
+    options.tap = tap;
+    return simulate_exact(scene, stop, {}, options);
+}
+
+void complete(const Scene& scene, std::vector<Trajectory> balls, std::vector<Event> events,
+              SimulationResult& result) {
+    result.motion.balls = std::move(balls);
+    result.motion.events = std::move(events);
+    result.motion.peaks = find_peaks(scene, result.motion);
+}
 
 SimulationResult simulate(const Scene& scene, const std::stop_token& stop,
                           const SimulationProgress& progress) {

@@ -96,7 +96,7 @@ TEST(FrameConverter, AlphaIsStraightAndNothingHasTheColoursOfWhatIsNear) {
     EXPECT_EQ(planes.word(3, 5, 5), 0);
 }
 
-TEST(Palette, FewColoursAreKeptExactly) {
+TEST(FilmPalette, FewColoursAreKeptExactly) {
     const Image image = [] {
         Image made(64, 64);
         for (int y = 0; y < 64; ++y)
@@ -110,7 +110,7 @@ TEST(Palette, FewColoursAreKeptExactly) {
             }
         return made;
     }();
-    Palette palette;
+    FilmPalette palette;
     std::vector<std::uint8_t> indices(64 * 64);
     std::array<std::uint32_t, 256> colours{};
     palette.convert(image, indices.data(), 64, colours);
@@ -124,7 +124,7 @@ TEST(Palette, FewColoursAreKeptExactly) {
 }
 
 // A gradient of 4096 colours in 255: the means of 4x4 blocks come out, whatever the entries are.
-TEST(Palette, DitherKeepsTheMean) {
+TEST(FilmPalette, DitherKeepsTheMean) {
     Image image(256, 256);
     for (int y = 0; y < 256; ++y)
         for (int x = 0; x < 256; ++x) {
@@ -132,7 +132,7 @@ TEST(Palette, DitherKeepsTheMean) {
             p[0] = static_cast<std::uint8_t>(x), p[1] = static_cast<std::uint8_t>(y);
             p[2] = static_cast<std::uint8_t>(255 - x / 2 - y / 2), p[3] = 255;
         }
-    Palette palette;
+    FilmPalette palette;
     std::vector<std::uint8_t> indices(256 * 256);
     std::array<std::uint32_t, 256> colours{};
     palette.convert(image, indices.data(), 256, colours);
@@ -154,8 +154,8 @@ TEST(Palette, DitherKeepsTheMean) {
     EXPECT_LE(mean, 2);
 }
 
-TEST(Palette, StaysUntilAFrameNeedsAnother) {
-    Palette palette;
+TEST(FilmPalette, StaysUntilAFrameNeedsAnother) {
+    FilmPalette palette;
     std::vector<std::uint8_t> indices(64 * 64);
     std::array<std::uint32_t, 256> first{}, second{}, third{};
     Image shifted = moving_picture(64, 64, 0);
@@ -165,7 +165,7 @@ TEST(Palette, StaysUntilAFrameNeedsAnother) {
     palette.convert(noise_image(64, 64, 1), indices.data(), 64, third);
     EXPECT_EQ(first, second);
     EXPECT_NE(first, third);
-    EXPECT_EQ(third[Palette::kTransparent], 0U);
+    EXPECT_EQ(third[FilmPalette::kTransparent], 0U);
 }
 
 }  // namespace

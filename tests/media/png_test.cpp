@@ -250,5 +250,38 @@ TEST_F(PngTest, SaysItsSizeOnPaperAndTexts) {
     EXPECT_FALSE(contains(encode_png(noise_image(16, 16, 1)), "pHYs"));
 }
 
+TEST_F(PngTest, WholeIsWhatNoByteIsMissingFromOrWrongIn) {
+    PngNotes notes;
+    notes.texts = {{"Time", "1.25 s"}};
+    Image clear = noise_image(8, 6, 1);
+    std::fill_n(clear.row(2), 4, std::uint8_t{0});
+    const std::string path = in_folder("w.png");
+    const auto is_whole = [&](const std::string& bytes, const PngNotes& expected, int width = 8) {
+        std::ofstream(path, std::ios::binary) << bytes;
+        return is_whole_png(path, width, 6, expected);
+    };
+    for (const Image& image : {noise_image(8, 6, 1), clear}) {
+        for (const PngEffort effort : {PngEffort::kFast, PngEffort::kSmall}) {
+            const std::string whole = encode_png(image, effort, notes);
+            EXPECT_TRUE(is_whole(whole, notes));
+            EXPECT_FALSE(is_whole(whole, notes, 9));
+            EXPECT_FALSE(is_whole(whole, {}));
+            PngNotes later = notes, sized = notes;
+            later.texts[0].second = "1.5 s";
+            sized.pixels_per_m = 1;
+            EXPECT_FALSE(is_whole(whole, later));
+            EXPECT_FALSE(is_whole(whole, sized));
+            EXPECT_FALSE(is_whole(whole + '\0', notes));
+            for (std::size_t i = 0; i < whole.size(); ++i) {
+                EXPECT_FALSE(is_whole(whole.substr(0, i), notes)) << i;
+                std::string damaged = whole;
+                damaged[i] = static_cast<char>(damaged[i] ^ 1);
+                EXPECT_FALSE(is_whole(damaged, notes)) << i;
+            }
+        }
+    }
+    EXPECT_FALSE(is_whole_png(in_folder("none.png"), 8, 6, notes));
+}
+
 }  // namespace
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace carom {
@@ -162,6 +163,25 @@ TEST(Motion, HashSeesEverythingButTheSignOfZero) {
     other.balls[0] = Trajectory();
     other.balls[0].append(piece(0, {1, 2, 3}, {-0.0, 0, 0}, Vec3::Zero()));
     EXPECT_EQ(other.hash(), hash);
+}
+
+TEST(Trajectory, LetsGoWhatLiesBehindAndKeepsTheRest) {
+    const auto place = [](double k) { return Vec3(k, 0.5 * k, -k); };
+    Trajectory ball;
+    std::size_t most = 0;
+    for (int k = 0; k < 1000; ++k) {
+        ball.append(piece(k, place(k), {0, 0, k + 1.0}, {0, 0, -1}));
+        ball.let_go_before(k - 9.5);
+        most = std::max(most, ball.pieces().size());
+        for (int back = 0; back < std::min(k, 9); ++back) {
+            const double t = k - back - 0.5;
+            EXPECT_EQ(ball.at(t).position.x(), k - back - 1) << t;
+        }
+    }
+    EXPECT_GE(most, 10U);
+    EXPECT_LE(most, 24U);
+    ball.let_go_before(1e9);  // the last one holds for ever
+    EXPECT_EQ(ball.at(1e9).position.x(), 999);
 }
 
 }  // namespace

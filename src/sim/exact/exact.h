@@ -3,12 +3,20 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <stop_token>
+#include <vector>
 
+#include "motion/motion_log.h"
 #include "scene/scene.h"
 #include "sim/record/simulation_result.h"
 
 namespace carom {
+
+/// Takes the pieces that there are, if it wants them now: all that begin before `now` [s], and some
+/// that begin at it, which later ones of the same beginning replace; and of the events those before
+/// `now`. Called often.
+using PieceTap = std::function<void(MotionLog& pieces, std::vector<Event>& events, double now)>;
 
 struct ExactOptions {
     /// From this many balls on a grid tells who is near whom. The motion does not depend on it.
@@ -18,6 +26,9 @@ struct ExactOptions {
     /// m: gaps up to this may be the rounding of the coordinates that the scene came with
     /// (nearby_origin.h), above that of the coordinates it has here.
     double place_rounding = 0;
+    /// If there is one, it gets all pieces and events; the result has none, nor peaks. Then only
+    /// what it leaves counts as kept (record/kept_limit.h).
+    PieceTap tap = {};
 };
 
 /// What it models exactly: flight; impacts with surfaces and balls, one or many at an instant; a

@@ -36,6 +36,7 @@ constexpr std::int64_t kEventsPerGrid = 16;
 ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
     : world_(scene),
       end_(end),
+      tap_(options.tap),
       links_(scene.balls.size()),
       queue_(scene.balls.size()),
       next_(scene.balls.size()),
@@ -56,9 +57,13 @@ SimulationResult ExactRun::finish() {
     for (const Ball& b : scene.balls) motion.ball_names.push_back(b.name);
     for (const Surface& s : scene.surfaces) motion.surface_names.push_back(s.name);
     motion.balls.resize(scene.balls.size());
-    motion.events = log_.take_events();
-    world_.log.move_into(motion.balls);
-    motion.peaks = find_peaks(scene, motion);
+    if (tap_) {
+        tap_(world_.log, log_.kept_events(), std::numeric_limits<double>::infinity());
+    } else {
+        motion.events = log_.take_events();
+        world_.log.move_into(motion.balls);
+        motion.peaks = find_peaks(scene, motion);
+    }
     SimulationReport& report = log_.report;
     report.effects = effects_of(scene, world_.pairs);
     report.effects["pairs"] = {can_collide_.possible, can_collide_.why};
@@ -111,13 +116,14 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         if (slow == looked && events % kEventsPerLook != 0) continue;
         looked = slow;
         report_progress(stop, progress, next.time);
+        if (tap_) tap_(world_.log, log_.kept_events(), next.time);
     }
 }
 
 void ExactRun::report_progress(const std::stop_token& stop, const SimulationProgress& progress,
                                double now) const {
-    const auto kept = static_cast<std::size_t>(log_.report.impacts + log_.report.integrated);
-    require_room(log_.events().size() + kept, now, end_);
+    const auto pieces = static_cast<std::size_t>(log_.report.impacts + log_.report.integrated);
+    require_room(log_.events().size() + (tap_ ? 0 : pieces), now, end_);
     if (stop.stop_requested())
         throw Failure(FailureKind::kRun, fmt::format("interrupted at {} s of motion", now));
     if (progress) progress(now);

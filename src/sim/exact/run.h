@@ -50,6 +50,7 @@ class ExactRun {
 
     ExactWorld world_;
     double end_;
+    PieceTap tap_;
     Links links_;
     InstantNotes notes_;
     ContactRules rules_{world_, notes_};

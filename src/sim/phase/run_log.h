@@ -23,6 +23,8 @@ class RunLog {
 
     const std::vector<Event>& events() const { return events_; }
     std::vector<Event> take_events() { return std::move(events_); }
+    /// To take away those before the instant at hand.
+    std::vector<Event>& kept_events() { return events_; }
     void add(const Event& event) { events_.push_back(event); }
     /// A contact begins to slide, roll or rest, or is left.
     void add(EventKind kind, const Contact& contact, double now);
