@@ -11,6 +11,7 @@
 #include "../clock.h"
 #include "motion_checks.h"
 #include "motion_difference.h"
+#include "random_laws.h"
 #include "random_mixture.h"
 #include "random_tracks.h"
 #include "scene/reader.h"
@@ -187,11 +188,18 @@ std::vector<Kind> all_kinds() {
     const auto shapes = [](std::uint64_t seed) {
         return std::vector<Trial>{{seed, scene_text(random_mixture(seed, true, Bodies::kRimmed))}};
     };
-    return {{"tracks", tracks, judge_one},
-            {"seams", seams, judge_seams},
-            {"scenes", scenes, judge_one},
-            {"shapes", shapes, judge_one},
-            {"transforms", make_transforms, judge_transform}};
+    const auto laws = [](std::uint64_t seed) {
+        Scene scene =
+            seed % 4 == 0
+                ? random_track(seed)
+                : random_mixture(seed, true, seed % 2 == 0 ? Bodies::kPlain : Bodies::kRimmed);
+        Draw draw(seed + 1'000'000'007);
+        add_contact_laws(scene, draw);
+        return std::vector<Trial>{{seed, scene_text(scene)}};
+    };
+    return {{"tracks", tracks, judge_one}, {"seams", seams, judge_seams},
+            {"scenes", scenes, judge_one}, {"shapes", shapes, judge_one},
+            {"laws", laws, judge_one},     {"transforms", make_transforms, judge_transform}};
 }
 
 }  // namespace carom::bench

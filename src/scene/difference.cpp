@@ -176,7 +176,11 @@ void Comparison::value(const KeySpec& spec, const Side& a, const Side& b, const 
     const auto inner = [&](const Side& side) {
         return Side{side.root, child_of(side.map, spec.key), side.name};
     };
-    if ((spec.forms & form::kMap) != 0) return section(spec.child, inner(a), inner(b), path);
+    const auto is_scalar = [](const Node* node) {
+        return node != nullptr && node->kind == Node::Kind::kScalar;
+    };
+    if ((spec.forms & form::kMap) != 0 && !is_scalar(inner(a).map) && !is_scalar(inner(b).map))
+        return section(spec.child, inner(a), inner(b), path);
     if ((spec.forms & (form::kNamedMaps | form::kMaps)) != 0)
         return entries(spec, inner(a), inner(b), path);
     if (is_unread(spec, a) && is_unread(spec, b)) return;

@@ -17,6 +17,9 @@ enum class Section {
     kSimulation,
     kMaterial,
     kVirtualBody,
+    kRestitution,
+    kPowerRestitution,
+    kViscoelasticRestitution,
     kPair,
     kLook,
     kSurface,
@@ -78,6 +81,7 @@ struct Range {
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool above_min = false;  ///< min itself is not allowed
+    bool below_max = false;  ///< nor max
     double multiple_of = 0;  ///< 0: any
 };
 constexpr Range at_least(double min) { return {.min = min}; }
@@ -172,6 +176,7 @@ class KeyTable {
 /// The rows themselves, by subject, in the files keys_*.cpp.
 std::vector<KeySpec> setup_keys();
 std::vector<KeySpec> overlay_keys();
+std::vector<KeySpec> material_keys();
 std::vector<KeySpec> surface_keys();
 std::vector<KeySpec> shape_keys();
 std::vector<KeySpec> ball_keys();

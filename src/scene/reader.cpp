@@ -48,7 +48,9 @@ void build_scene(Build& build) {
     build_against(build);
     check_names(build);
     check_overlaps(build);
+    check_restitution_laws(build);
     warn_of_half_friction(build);
+    warn_without_friction(build);
 }
 
 /// A key or a number with a no-break space in it looks right on the screen.

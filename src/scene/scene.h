@@ -13,6 +13,7 @@
 #include "core/diagnostics.h"
 #include "core/types.h"
 #include "geometry/shape.h"
+#include "scene/restitution_law.h"
 
 namespace carom {
 
@@ -28,6 +29,11 @@ struct Material {
     std::string name;                ///< "" is the default material, always at index 0
     VirtualBody virtual_body;        ///< `restitution: e` is stored as x/v = -2 ln e / K, v = 1
     std::optional<double> friction;  ///< Coulomb's mu against a reference of 1; none if not named
+    /// The coefficient over the approach speed; the virtual body then loses nothing.
+    std::optional<RestitutionLaw> restitution_law{};
+    std::optional<double> rolling{};   ///< deceleration over N/m, against a reference of 1
+    std::optional<double> pivoting{};  ///< moment against spin about the normal over N, m
+    std::optional<double> tangential_restitution{};  ///< -1 ... 1
     SourceMark mark;
 };
 
@@ -37,6 +43,11 @@ struct PairRule {
     std::optional<double> restitution;
     std::optional<double> friction;
     SourceMark mark;
+    // As in Material.
+    std::optional<RestitutionLaw> restitution_law{};
+    std::optional<double> rolling{};
+    std::optional<double> pivoting{};
+    std::optional<double> tangential_restitution{};
 };
 
 /// Linear pictures have linear colours; the scene has sRGB ones, each channel 0 ... 1.

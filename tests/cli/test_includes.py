@@ -36,7 +36,7 @@ ROOMS = {
         "integrate": {"law", "math"},
         "fixed": {"contact", "record", "solve"},
         "world": {"collide", "contact", "law", "record"},
-        "group": {"record", "solve", "world"},
+        "group": {"contact", "record", "solve", "world"},
         "phase": {"contact", "group", "integrate", "law", "math", "record", "solve", "world"},
         "exact": {"collide", "group", "math", "phase", "record", "solve", "world"},
     },
