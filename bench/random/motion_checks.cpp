@@ -37,7 +37,9 @@ Energies energies(const Scene& scene, const std::vector<BallState>& states) {
             0.5 * b.mass *
             (states[i].velocity.squaredNorm() +
              b.inertia_factor * b.radius * b.radius * states[i].spin.squaredNorm());
-        const double fallen = b.mass * g.dot(states[i].position - b.position);
+        const bool carried = scene.air && scene.air->buoyancy;
+        const double weight = carried ? 1 - buoyant_part(*scene.air, b.radius, b.mass) : 1;
+        const double fallen = weight * b.mass * g.dot(states[i].position - b.position);
         e.total += kinetic - fallen;
         e.in_play += kinetic + std::max(std::abs(fallen), b.mass * g.norm() * b.radius);
     }

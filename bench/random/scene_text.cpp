@@ -124,6 +124,42 @@ std::string material_key(const Scene& scene, int material) {
                                        scene.materials[static_cast<std::size_t>(material)].name);
 }
 
+template <class List>
+std::string list_text(const List& numbers) {
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
+
+std::string air_text(const Scene& scene) {
+    if (!scene.air) return "";
+    const Air& air = *scene.air;
+    return fmt::format("air: {{density: {}, viscosity: {}, wind: {}, buoyancy: {}}}\n", air.density,
+                       air.viscosity, text(air.wind), air.buoyancy);
+}
+
+std::string flight_text(const Flight& flight) {
+    const Drag& drag = flight.drag;
+    const Lift& lift = flight.lift;
+    std::string all;
+    if (drag.over == Drag::Over::kSpeed || drag.over == Drag::Over::kReynolds)
+        all += fmt::format(", drag: {{{}: {}, value: {}}}",
+                           drag.over == Drag::Over::kSpeed ? "speed" : "reynolds",
+                           list_text(drag.table->x()), list_text(drag.table->y()));
+    else if (drag.over == Drag::Over::kNothing)
+        all += fmt::format(", drag: {}", drag.constant);
+    if (lift.over == Lift::Over::kTable)
+        all += fmt::format(", lift: {{spin: {}, value: {}}}", list_text(lift.table->x()),
+                           list_text(lift.table->y()));
+    else if (lift.over == Lift::Over::kNothing)
+        all += fmt::format(", lift: {}", lift.constant);
+    else
+        all += fmt::format(", lift: {}", lift.over == Lift::Over::kSpinRatio ? "spin_ratio"
+                                         : lift.over == Lift::Over::kTennis  ? "tennis"
+                                                                             : "baseball");
+    if (std::isfinite(flight.spin_decay_s))
+        all += fmt::format(", spin_decay_s: {}", flight.spin_decay_s);
+    return all;
+}
+
 std::string ball_text(const Scene& scene, const Ball& b) {
     std::string line =
         fmt::format("  - {{name: {}, radius: {}, mass: {}, inertia: {}{}, ", b.name, b.radius,
@@ -131,6 +167,7 @@ std::string ball_text(const Scene& scene, const Ball& b) {
     line += fmt::format("position: {}", text(b.position));
     if (!b.velocity.isZero(0)) line += fmt::format(", velocity: {}", text(b.velocity));
     if (!b.spin.isZero(0)) line += fmt::format(", spin: {}", text(b.spin));
+    if (scene.air) line += flight_text(b.flight);
     return line + "}\n";
 }
 
@@ -142,7 +179,7 @@ std::string scene_text(const Scene& scene) {
                                   s.duration.value_or(s.max_duration), text(s.gravity));
     if (s.restitution_constant != Simulation{}.restitution_constant)
         all += fmt::format(", restitution_constant: {}", s.restitution_constant);
-    all += "}\n" + materials_text(scene) + pairs_text(scene);
+    all += "}\n" + air_text(scene) + materials_text(scene) + pairs_text(scene);
     if (!scene.surfaces.empty()) all += "surfaces:\n";
     for (const Surface& surface : scene.surfaces)
         all += fmt::format(

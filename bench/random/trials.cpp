@@ -11,6 +11,7 @@
 #include "../clock.h"
 #include "motion_checks.h"
 #include "motion_difference.h"
+#include "random_air.h"
 #include "random_laws.h"
 #include "random_mixture.h"
 #include "random_tracks.h"
@@ -70,7 +71,7 @@ Verdict judge_motion(const Played& played) {
     if (!(rise.value <= (v.stepped ? kSteppedEnergy : kEnergyLimit)))
         fail(v, v.stepped ? "energy rises, with steps of ODE" : "energy rises", rise, motion);
     if (!v.stepped && !(depth.value <= kDepthLimit)) fail(v, "too deep", depth, motion);
-    if (played.scene.surfaces.empty()) {
+    if (played.scene.surfaces.empty() && !played.scene.air) {
         const Worst off = momentum_error(played.scene, motion, times);
         v.momentum_error = off.value;
         if (!(off.value <= kMomentumLimit)) fail(v, "momentum", off, motion);
@@ -197,9 +198,16 @@ std::vector<Kind> all_kinds() {
         add_contact_laws(scene, draw);
         return std::vector<Trial>{{seed, scene_text(scene)}};
     };
-    return {{"tracks", tracks, judge_one}, {"seams", seams, judge_seams},
-            {"scenes", scenes, judge_one}, {"shapes", shapes, judge_one},
-            {"laws", laws, judge_one},     {"transforms", make_transforms, judge_transform}};
+    const auto air = [](std::uint64_t seed) {
+        return std::vector<Trial>{{seed, scene_text(random_air(seed))}};
+    };
+    return {{"tracks", tracks, judge_one},
+            {"seams", seams, judge_seams},
+            {"scenes", scenes, judge_one},
+            {"shapes", shapes, judge_one},
+            {"laws", laws, judge_one},
+            {"air", air, judge_one},
+            {"transforms", make_transforms, judge_transform}};
 }
 
 }  // namespace carom::bench

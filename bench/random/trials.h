@@ -26,7 +26,7 @@ struct Kind {
     std::function<Verdict(const Trial&, Watch&)> judge;
 };
 
-/// tracks, seams, scenes, shapes, transforms.
+/// tracks, seams, scenes, shapes, air, transforms.
 std::vector<Kind> all_kinds();
 
 // Bounds, see the judges.

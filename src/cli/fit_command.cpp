@@ -11,9 +11,14 @@
 #include "cli/interrupt.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
+#include "core/readable.h"
 #include "media/output_file.h"
+#include "media/wav.h"
+#include "report/bounce_onsets.h"
 #include "report/fit.h"
 #include "report/paper_data.h"
+#include "scene/catalogue.h"
+#include "scene/report.h"
 #include "scene/scalar.h"
 
 namespace carom {
@@ -23,10 +28,14 @@ namespace {
 /// Numbers with units arrive as text.
 struct FitCommandOptions {
     std::vector<std::string> drops, rebounds, intervals;
-    std::string csv;
+    std::string csv, wav;
     std::string rebound_to = "bottom";
     std::string diameter;
     std::string reading_error;
+    bool air = false;
+    double density = Air{}.density;
+    std::string ball, radius;
+    double mass = 0, drag = 0;
     double constant = kPaperConstant;
     double velocity = kFixedVelocity_m_s;
     std::string name = "measured";
@@ -58,14 +67,31 @@ std::vector<MeasuredDrop> paired_drops(const FitCommandOptions& options) {
     return result;
 }
 
+/// The distances of the bounces in a recording.
+Measurements heard_bounces(const std::string& path) {
+    std::vector<double> at;
+    try {
+        at = bounce_onsets(read_wav(path));
+    } catch (const Failure& failure) {
+        const std::string text = failure.what();
+        if (text.starts_with(readable(path))) throw;
+        usage(fmt::format("{}: {}", readable(path), text));
+    }
+    Measurements result;
+    for (std::size_t i = 1; i < at.size(); ++i) result.intervals_s.push_back(at[i] - at[i - 1]);
+    return result;
+}
+
 Measurements measurements(const FitCommandOptions& options) {
     const bool heights = !options.drops.empty() || !options.rebounds.empty();
-    const int sources =
-        (heights ? 1 : 0) + (options.csv.empty() ? 0 : 1) + (options.intervals.empty() ? 0 : 1);
+    const int sources = (heights ? 1 : 0) + (options.csv.empty() ? 0 : 1) +
+                        (options.wav.empty() ? 0 : 1) + (options.intervals.empty() ? 0 : 1);
     if (sources != 1)
-        usage(sources == 0 ? "nothing measured: give --drop and --rebound, --csv or --intervals"
-                           : "give only one of --drop with --rebound, --csv and --intervals");
+        usage(sources == 0
+                  ? "nothing measured: give --drop and --rebound, --csv, --intervals or --wav"
+                  : "give only one of --drop with --rebound, --csv, --intervals and --wav");
     if (!options.csv.empty()) return read_measurements(options.csv);
+    if (!options.wav.empty()) return heard_bounces(options.wav);
     Measurements result;
     if (heights) result.drops = paired_drops(options);
     for (const std::string& text : options.intervals)
@@ -77,6 +103,27 @@ double above_zero(const std::string& text, Quantity quantity, const std::string&
     const double value = parse_quantity(text, quantity, option);
     if (!(value > 0)) usage(fmt::format("{} {}: it must be above 0", option, text));
     return value;
+}
+
+/// The ball that flies in air: a preset's numbers, or the options' own where they are given.
+FallInAir fall_in_air(const FitCommandOptions& options) {
+    const Preset* preset = nullptr;
+    if (!options.ball.empty()) {
+        preset = find_preset(options.ball);
+        if (preset == nullptr)
+            usage(fmt::format("--ball {}: there is no preset of that name{}", options.ball,
+                              suggestion(options.ball, preset_names())));
+    }
+    const double radius = options.radius.empty()
+                              ? (preset == nullptr ? 0 : preset->radius)
+                              : above_zero(options.radius, Quantity::kLength, "--radius");
+    const double mass = options.mass > 0 ? options.mass : preset == nullptr ? 0 : preset->mass;
+    const double drag = options.drag > 0 ? options.drag : preset == nullptr ? 0 : preset->drag;
+    if (!(radius > 0 && mass > 0 && drag > 0))
+        usage("--air needs the ball: --ball PRESET, or --radius, --mass and --drag");
+    Air air;
+    air.density = options.density;
+    return {air, radius, mass, drag, -Simulation{}.gravity.z()};
 }
 
 FitOptions fit_options(const FitCommandOptions& options, const Measurements& measured) {
@@ -91,6 +138,11 @@ FitOptions fit_options(const FitCommandOptions& options, const Measurements& mea
         result.rebound_to = ReboundTo::kTop;
         result.diameter_m = above_zero(options.diameter, Quantity::kLength, "--diameter");
     }
+    const bool ball = !options.ball.empty() || !options.radius.empty() || options.mass > 0 ||
+                      options.drag > 0 || options.density != Air{}.density;
+    if (ball && !options.air)
+        usage("--ball, --radius, --mass, --drag and --density are only needed with --air");
+    if (options.air) result.air = fall_in_air(options);
     if (!options.reading_error.empty())
         result.reading_error = above_zero(
             options.reading_error, times ? Quantity::kTime : Quantity::kLength, "--reading-error");
@@ -101,7 +153,7 @@ int fit(const FitCommandOptions& options, const Interrupt& interrupt) {
     if (!options.plot.empty()) {
         if (!plot_format_of(options.plot))
             usage(fmt::format("-o {}: a plot is a .svg, .png or .pdf file", options.plot));
-        require_distinct({{"-o", options.plot}}, {{"--csv", options.csv}});
+        require_distinct({{"-o", options.plot}}, {{"--csv", options.csv}, {"--wav", options.wav}});
         require_writable(options.plot, options.overwrite);
         require_gnuplot(interrupt.token());
     }
@@ -140,6 +192,11 @@ void add_sources(CLI::App& command, FitCommandOptions& options) {
          "Times between successive bounces in order, in seconds, or e.g. 860ms,730ms", "T,...")
         ->delimiter(',');
     command
+        .add_option("--wav", options.wav,
+                    "Recording of a ball that bounces: the times between its bounces (default: "
+                    "none)")
+        ->type_name("FILE");
+    command
         .add_option("--rebound-to", options.rebound_to, "What of the ball a rebound is measured to")
         ->check(CLI::IsMember({"bottom", "top"}))
         ->type_name("bottom|top")
@@ -155,6 +212,31 @@ void add_sources(CLI::App& command, FitCommandOptions& options) {
         ->type_name("E");
 }
 
+void add_air(CLI::App& command, FitCommandOptions& options) {
+    constexpr double kMost = 1e9;
+    command.add_flag("--air", options.air,
+                     "The ball was measured in air (default: as if in a vacuum)");
+    command.add_option("--density", options.density, "Density of the air in kg/m^3")
+        ->check(CLI::Range(1e-9, 1e4))
+        ->type_name("D")
+        ->capture_default_str();
+    command
+        .add_option("--ball", options.ball,
+                    "The ball that flies: a preset, whose radius, mass and drag coefficient are "
+                    "the defaults of the next three (default: none)")
+        ->type_name("PRESET");
+    command
+        .add_option("--radius", options.radius,
+                    "Radius of the ball in metres, or e.g. 20mm (default: --ball's)")
+        ->type_name("R");
+    command.add_option("--mass", options.mass, "Mass of the ball in kg (default: --ball's)")
+        ->check(CLI::Range(1e-9, kMost))
+        ->type_name("M");
+    command.add_option("--drag", options.drag, "Drag coefficient of the ball (default: --ball's)")
+        ->check(CLI::Range(1e-9, 1e3))
+        ->type_name("C");
+}
+
 }  // namespace
 
 void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
@@ -164,8 +246,11 @@ void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->footer(
         "  carom fit --drop 1.8 --rebound 1.29 --rebound 1.31\n"
         "  carom fit --drop 180cm --rebound 129cm -o line.svg\n"
-        "  carom fit --intervals 0.86,0.73,0.62\n");
+        "  carom fit --intervals 0.86,0.73,0.62\n"
+        "  carom fit --wav bounces.wav\n"
+        "  carom fit --intervals 0.434,0.380,0.335 --air --ball table_tennis\n");
     add_sources(*command, *options);
+    add_air(*command, *options);
     constexpr double kMost = 1e9;
     command->add_option("--constant", options->constant, "K of Eq. 7 in 1/s")
         ->check(CLI::Range(1e-9, kMost))

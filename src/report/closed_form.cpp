@@ -144,6 +144,7 @@ Piece flight(const Scene& scene, const Ball& ball) {
 }  // namespace
 
 std::optional<Motion> closed_form_motion(const Scene& scene, const Motion& motion) {
+    if (scene.air) return std::nullopt;
     const PairTable pairs(scene);
     Motion result;
     result.duration = motion.duration;

@@ -17,8 +17,8 @@ namespace carom {
 /// Computed with 64 bits of mantissa, independently of src/sim, and rounded once.
 ///
 /// `motion` is a simulation of the scene: it only says who meets whom. Empty where a ball meets
-/// more than that, where friction or a ball's contact at the start is involved, or where gravity
-/// pulls away from the plane.
+/// more than that, where there is air, where friction or a ball's contact at the start is involved,
+/// or where gravity pulls away from the plane.
 std::optional<Motion> closed_form_motion(const Scene& scene, const Motion& motion);
 
 }  // namespace carom

@@ -56,7 +56,13 @@ Estimate estimate_of_drops(const std::vector<MeasuredDrop>& drops, const FitOpti
     double reading = 0;
     for (const MeasuredDrop& drop : drops) {
         const double rebound = rebound_of(drop, options);
-        single.push_back(std::sqrt(rebound / drop.drop_m));  // Eq. 9
+        single.push_back(options.air ? options.air->restitution(drop.drop_m, rebound)
+                                     : std::sqrt(rebound / drop.drop_m));  // Eq. 9
+        if (!(single.back() <= 1))
+            fail(
+                fmt::format("{}: a coefficient of {:.4g}: in this air the ball would have to gain "
+                            "energy; are radius, mass and drag those of the ball?",
+                            drop.where, single.back()));
         // dε = ε/2 (dh/h - dH/H)
         const double error = options.reading_error.value_or(0);
         reading += std::pow(0.5 * single.back(), 2) *
@@ -81,7 +87,17 @@ Estimate estimate_of_intervals(const std::vector<double>& times, const FitOption
     for (std::size_t i = 0; i < times.size(); ++i)
         if (!(times[i] > 0))
             fail(fmt::format("interval {}: {} s; it must be above 0", i + 1, times[i]));
-    for (std::size_t i = 1; i < times.size(); ++i) single.push_back(times[i] / times[i - 1]);
+    // The logarithms that fall by ln ε from bounce to bounce, and their change with a time [1/s].
+    std::vector<double> logs, rates;
+    double lost = 0;
+    for (const double time : times) {
+        const double speed = options.air ? options.air->speed_of(time) : time;
+        logs.push_back(std::log(speed) - lost);
+        rates.push_back(options.air ? 1 / (speed * options.air->interval_rate(speed)) : 1 / time);
+        if (options.air) lost += std::log(options.air->kept_part(speed));
+    }
+    for (std::size_t i = 1; i < times.size(); ++i)
+        single.push_back(options.air ? std::exp(logs[i] - logs[i - 1]) : times[i] / times[i - 1]);
 
     // Least squares of ln t_n over n: the slope is sum (n - mean) ln t_n / sum (n - mean)^2.
     const auto count = static_cast<double>(times.size());
@@ -90,9 +106,9 @@ Estimate estimate_of_intervals(const std::vector<double>& times, const FitOption
     for (std::size_t i = 0; i < times.size(); ++i) {
         const double off = static_cast<double>(i) - middle;
         spread += off * off;
-        slope += off * std::log(times[i]);
-        level += std::log(times[i]) / count;
-        reading += std::pow(off * options.reading_error.value_or(0) / times[i], 2);
+        slope += off * logs[i];
+        level += logs[i] / count;
+        reading += std::pow(off * options.reading_error.value_or(0) * rates[i], 2);
     }
     slope /= spread;
     if (slope > 0)
@@ -102,8 +118,7 @@ Estimate estimate_of_intervals(const std::vector<double>& times, const FitOption
                         std::exp(slope)));
     double residuals = 0;
     for (std::size_t i = 0; i < times.size(); ++i)
-        residuals +=
-            std::pow(std::log(times[i]) - level - slope * (static_cast<double>(i) - middle), 2);
+        residuals += std::pow(logs[i] - level - slope * (static_cast<double>(i) - middle), 2);
     Estimate estimate;
     estimate.value = times.size() == 2 ? single.front() : std::exp(slope);
     const double per_slope = estimate.value * estimate.value;  // dε = ε d(ln ε)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "report/fall_in_air.h"
 #include "report/measurement.h"
 #include "report/plot.h"
 #include "scene/scene.h"
@@ -21,6 +22,7 @@ struct FitOptions {
     double diameter_m = 0;  ///< of the ball; only for kTop
     /// Standard uncertainty of one reading: of a height, m, or of an interval, s.
     std::optional<double> reading_error;
+    std::optional<FallInAir> air;  ///< empty: a vacuum
 };
 
 /// Uncertainties after the Guide to the Expression of Uncertainty in Measurement (JCGM 100:2008).
@@ -37,8 +39,10 @@ struct RestitutionFit {
 };
 
 /// Drops: the mean of sqrt(rebound / drop), bottom to bottom. Intervals: the slope of their
-/// logarithms, ln t_n = ln t_0 + n ln ε (of two, t_1 / t_0). Throws Failure(kInput) for heights and
-/// times that no bouncing ball has.
+/// logarithms, ln t_n = ln t_0 + n ln ε (of two, t_1 / t_0). In air the closed forms of FallInAir
+/// take the place of both: heights give speeds of impact and rebound, intervals the speeds u_n, of
+/// which the part p_n is left at the next impact, ln u_n = ln u_0 + n ln ε + sum ln p_i, i < n.
+/// Throws Failure(kInput) for heights and times that no bouncing ball has.
 RestitutionFit fit_restitution(const Measurements& measured, const FitOptions& options);
 
 /// t with P(|T| < t) = 0.95 for Student's distribution. `degrees` >= 1.

@@ -99,7 +99,9 @@ Energy energy_at(const Scene& scene, const Motion& motion, double t) {
         sum.kinetic += 0.5 * ball.mass *
                        (s.velocity.squaredNorm() +
                         ball.inertia_factor * ball.radius * ball.radius * s.spin.squaredNorm());
-        sum.potential -= ball.mass * scene.simulation.gravity.dot(s.position);
+        const bool carried = scene.air && scene.air->buoyancy;
+        const double weight = carried ? 1 - buoyant_part(*scene.air, ball.radius, ball.mass) : 1;
+        sum.potential -= weight * ball.mass * scene.simulation.gravity.dot(s.position);
     }
     return sum;
 }

@@ -42,7 +42,8 @@ struct Build {
 };
 
 // In this order: later ones use what earlier ones filled in.
-void build_setup(Build& build);      // title, simulation, film
+void build_setup(Build& build);  // title, simulation, film
+void build_air(Build& build);
 void build_materials(Build& build);  // materials and pairs
 void build_looks(Build& build);
 void build_surfaces(Build& build);
@@ -53,6 +54,7 @@ void build_test(Build& build);
 void build_against(Build& build);
 void check_names(Build& build);             // unique over balls and surfaces
 void check_overlaps(Build& build);          // at the start
+void check_flights(Build& build);           // what air asks of balls
 void check_restitution_laws(Build& build);  // of materials that may meet
 void warn_of_half_friction(Build& build);   // and of rolling resistance, the same
 void warn_without_friction(Build& build);   // of what has no effect then
@@ -68,6 +70,10 @@ int preset_material(Build& build, const std::string& preset_name);
 
 /// The look that a reference names; reports an unknown name and returns -1.
 int resolve_look(Build& build, const Node& reference);
+
+/// What a ball's key `drag` or `lift` says; it is there.
+Drag read_drag(Build& build, const Fields& fields);
+Lift read_lift(Build& build, const Fields& fields);
 
 /// Index of the ball that a reference names; reports an unknown name and returns -1.
 int resolve_ball(Build& build, const Node& reference);

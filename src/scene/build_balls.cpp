@@ -72,6 +72,7 @@ class BallBuilder {
     Vec3 start_vector(const Layer& own, std::string_view key) const;
     int material(const Layer& own);
     int look(const Layer& own, const Node* own_look);
+    Flight flight(const Layer& own);
     bool place(const Layer& own, Ball& ball);
     bool fits_limits(const Fields& repeat, const Node& node, const Ball& ball);
     std::vector<Ball> unroll(const Layer& own, const Ball& ball, bool& sound);
@@ -124,6 +125,30 @@ int BallBuilder::look(const Layer& own, const Node* own_look) {
         return default_look(build_, std::string(preset->name), style_look(preset->style));
     const int color = static_cast<int>(build_.scene.balls.size() % kPaletteSize);
     return default_look(build_, fmt::format("palette {}", color), palette_look(color));
+}
+
+Flight BallBuilder::flight(const Layer& own) {
+    Flight flight;
+    bool has_drag = false, has_lift = false, decays = false;
+    for (const Layer* layer : {&own, static_cast<const Layer*>(&defaults_)}) {
+        if (!has_drag && layer->fields.has("drag")) {
+            flight.drag = read_drag(build_, layer->fields);
+            has_drag = true;
+        }
+        if (!has_drag && layer->preset != nullptr) {
+            flight.drag = {Drag::Over::kNothing, layer->preset->drag, nullptr};
+            has_drag = true;
+        }
+        if (!has_lift && layer->fields.has("lift")) {
+            flight.lift = read_lift(build_, layer->fields);
+            has_lift = true;
+        }
+        if (const auto decay = layer->fields.maybe_number("spin_decay_s"); decay && !decays) {
+            flight.spin_decay_s = *decay;
+            decays = true;
+        }
+    }
+    return flight;
 }
 
 /// Radius and position; false where they are not known.
@@ -224,6 +249,7 @@ void BallBuilder::add(const Node& node) {
     ball.velocity = start_vector(own, "velocity");
     ball.spin = start_vector(own, "spin");
     ball.material = material(own);
+    ball.flight = flight(own);
     const Preset* preset = own.preset != nullptr ? own.preset : defaults_.preset;
     ball.preset = preset == nullptr ? "" : std::string(preset->name);
 

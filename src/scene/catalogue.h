@@ -21,9 +21,12 @@ struct Preset {
     double printed_restitution =
         0;  ///< the paper's, for comparison; the motion uses the computed one
     LookStyle style = LookStyle::kPlain;
+    double drag = 0;            ///< C_D at the speeds of a drop test
+    double drag_up_to_m_s = 0;  ///< beyond it another one holds
     std::string_view radius_source;
     std::string_view mass_source;
     std::string_view restitution_source;
+    std::string_view drag_source;
 };
 
 std::span<const Preset> catalogue();

@@ -36,6 +36,7 @@ KeyTable::KeyTable() : rows_(setup_keys()), rules_(key_rules()), sections_(secti
     for (KeySpec& row : surface_keys()) rows_.push_back(std::move(row));
     for (KeySpec& row : shape_keys()) rows_.push_back(std::move(row));
     for (KeySpec& row : ball_keys()) rows_.push_back(std::move(row));
+    for (KeySpec& row : air_keys()) rows_.push_back(std::move(row));
     for (KeySpec& row : against_keys()) rows_.push_back(std::move(row));
     for (const KeySpec& row : rows_) {
         by_section_[index_of(row.section)].push_back(&row);

@@ -15,6 +15,7 @@ namespace carom {
 enum class Section {
     kScene,
     kSimulation,
+    kAir,
     kMaterial,
     kVirtualBody,
     kRestitution,
@@ -34,6 +35,8 @@ enum class Section {
     kDefaults,
     kBallDefaults,  ///< the rows of kBall that have `in_defaults`
     kBall,
+    kDragTable,
+    kLiftTable,
     kRepeat,
     kCamera,
     kCameraKey,
@@ -180,6 +183,7 @@ std::vector<KeySpec> material_keys();
 std::vector<KeySpec> surface_keys();
 std::vector<KeySpec> shape_keys();
 std::vector<KeySpec> ball_keys();
+std::vector<KeySpec> air_keys();
 std::vector<KeySpec> against_keys();
 std::vector<Rule> key_rules();
 std::vector<SectionDoc> section_docs();

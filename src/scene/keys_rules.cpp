@@ -24,6 +24,10 @@ std::vector<Rule> key_rules() {
         {kCamera, Rule::Kind::kAtMostOne, {"fov_deg", "focal_mm"}},
         {kCamera, Rule::Kind::kAtMostOne, {"fov_deg", "orthographic"}},
         {kCamera, Rule::Kind::kAtMostOne, {"focal_mm", "orthographic"}},
+        {kAir, Rule::Kind::kAtMostOne, {"density", "temperature_c"}},
+        {kAir, Rule::Kind::kAtMostOne, {"density", "pressure_pa"}},
+        {kAir, Rule::Kind::kAtMostOne, {"density", "humidity"}},
+        {kDragTable, Rule::Kind::kExactlyOne, {"speed", "reynolds"}},
         {kBall, Rule::Kind::kAtMostOne, {"position", "drop_height"}},
         {kBall, Rule::Kind::kAtMostOne, {"position", "at"}},
         {kAgainst, Rule::Kind::kAtLeastOne, {"scene", "set"}},
@@ -35,6 +39,8 @@ std::vector<SectionDoc> section_docs() {
     return {
         {kScene, "scene", "", "The keys of the file."},
         {kSimulation, "simulation", "simulation", "How the motion is computed."},
+        {kAir, "air", "air",
+         "The air: it acts on every ball, in flight and in contact (docs/real-balls.md)."},
         {kMaterial, "material", "materials.NAME",
          "What a material does in contact; the rule for a pair is the product of both numbers."},
         {kVirtualBody, "virtual_body", "materials.NAME.virtual_body",
@@ -76,6 +82,8 @@ std::vector<SectionDoc> section_docs() {
          "Fills what a ball, and the preset that the ball names, leave out. The keys are those of "
          "`balls[]`:"},
         {kBall, "ball", "balls[]", "A ball, or with `repeat` a grid of equal ones."},
+        {kDragTable, "drag_table", "balls[].drag", "Measured drag coefficients."},
+        {kLiftTable, "lift_table", "balls[].lift", "Measured lift coefficients."},
         {kRepeat, "repeat", "balls[].repeat",
          "A grid of balls named NAME_i_j_k, i along x, j along y, k along z, each counted from 0."},
         {kCamera, "camera", "camera",

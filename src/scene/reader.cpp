@@ -38,6 +38,7 @@ std::string read_bounded(std::istream& stream) {
 
 void build_scene(Build& build) {
     build_setup(build);
+    build_air(build);
     build_materials(build);
     build_looks(build);
     build_surfaces(build);
@@ -48,6 +49,7 @@ void build_scene(Build& build) {
     build_against(build);
     check_names(build);
     check_overlaps(build);
+    check_flights(build);
     check_restitution_laws(build);
     warn_of_half_friction(build);
     warn_without_friction(build);

@@ -89,6 +89,10 @@ std::string catalogue_text() {
     for (const Preset& preset : catalogue())
         text += fmt::format("| `{}` | {} | {} | {} |\n", preset.name, preset.radius_source,
                             preset.mass_source, preset.restitution_source);
+    text += "\n| Preset | Drag coefficient in air | Up to, m/s | Source |\n|---|---|---|---|\n";
+    for (const Preset& preset : catalogue())
+        text += fmt::format("| `{}` | {} | {} | {} |\n", preset.name, number_text(preset.drag),
+                            number_text(preset.drag_up_to_m_s), preset.drag_source);
     return text;
 }
 

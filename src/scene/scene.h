@@ -13,6 +13,7 @@
 #include "core/diagnostics.h"
 #include "core/types.h"
 #include "geometry/shape.h"
+#include "scene/air.h"
 #include "scene/restitution_law.h"
 
 namespace carom {
@@ -98,6 +99,7 @@ struct Ball {
     Vec3 position = Vec3::Zero();  ///< of the centre, m
     Vec3 velocity = Vec3::Zero();  ///< m/s
     Vec3 spin = Vec3::Zero();      ///< angular velocity, world axes, rad/s
+    Flight flight;                 ///< only read where the scene has air
     std::string preset;            ///< "" or the catalogue's name
     SourceMark mark;
 };
@@ -245,6 +247,7 @@ struct Scene {
     std::uint64_t fingerprint = 0;  ///< of the document with what the command line changed in it
     std::string title;
     Simulation simulation;
+    std::optional<Air> air;           ///< empty: a vacuum
     std::vector<Material> materials;  ///< [0] is the default: restitution 1, no friction
     std::vector<PairRule> pairs;
     std::vector<Look> looks;

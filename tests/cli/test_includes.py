@@ -34,11 +34,11 @@ ROOMS = {
         "law": {"contact"},
         "record": {"contact", "math"},
         "integrate": {"law", "math"},
-        "fixed": {"contact", "record", "solve"},
+        "fixed": {"contact", "law", "record", "solve"},
         "world": {"collide", "contact", "law", "record"},
         "group": {"contact", "record", "solve", "world"},
         "phase": {"contact", "group", "integrate", "law", "math", "record", "solve", "world"},
-        "exact": {"collide", "group", "math", "phase", "record", "solve", "world"},
+        "exact": {"collide", "group", "math", "phase", "record", "world"},
     },
     "render": {
         "gl": set(),

@@ -319,5 +319,98 @@ TEST(Quantities, UnitsAreConverted) {
         holds(complaint([] { parse_quantity("inf", Quantity::kLength, "--drop"); }), "no number"));
 }
 
+// ---- In air
+// ------------------------------------------------------------------------------------
+
+/// A preset's numbers, in air of 1.225 kg/m^3 without buoyancy.
+FallInAir air_of(double radius, double mass, double drag) {
+    Air air;
+    air.buoyancy = false;
+    return {air, radius, mass, drag, kGravity};
+}
+
+/// The coefficients that give the presets' own first rebounds in air, six digits of an independent
+/// calculation.
+TEST(FitInAir, SameRebound) {
+    struct Row {
+        double radius, mass, drag, drop, vacuum, air;
+    };
+    constexpr double kTurn = 6.283185307179586;
+    for (const Row& row : {Row{0.7645 / kTurn, 0.6085, 0.50, 1.8, 0.845354, 0.876385},
+                           Row{0.66 / kTurn, 0.27, 0.47, 1.0, 0.786628, 0.810458},
+                           Row{0.69 / kTurn, 0.4325, 0.50, 2.0, 0.818731, 0.856140},
+                           Row{0.066995 / 2, 0.0577, 0.507, 2.54, 0.744978, 0.773315},
+                           Row{0.02, 0.0027, 0.45, 0.305, 0.904837, 0.937571}}) {
+        FitOptions options;
+        options.air = air_of(row.radius, row.mass, row.drag);
+        const double rebound = row.vacuum * row.vacuum * row.drop;
+        const double e = fit_restitution(drops_of({{row.drop, rebound}}), options).restitution;
+        EXPECT_NEAR(row.air, e, 1e-6);
+    }
+}
+
+/// A table tennis ball of e = 0.9 in air with buoyancy: its simulated heights and intervals give
+/// 0.9 again, and something else without air.
+TEST(FitInAir, RoundTrip) {
+    const SceneResult read = read_scene(
+        "carom: 1\n"
+        "simulation: {duration: 4}\n"
+        "air: {density: 1.2}\n"
+        "surfaces: [{name: floor, plane: {}}]\n"
+        "materials: {it: {restitution: 0.9}}\n"
+        "balls: [{name: a, preset: table_tennis, material: it, drop_height: 0.305}]\n",
+        "scene.yaml");
+    ASSERT_TRUE(read.scene);
+    const Motion motion = simulate(*read.scene).motion;
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i <= 10; ++i)
+        intervals.push_back(motion.events[i].time - motion.events[i - 1].time);
+    const Ball& ball = read.scene->balls[0];
+    FitOptions options;
+    options.air = FallInAir(*read.scene->air, ball.radius, ball.mass, 0.45, kGravity);
+    const Measurements times = intervals_of(intervals);
+    const Measurements heights = drops_of({{0.305, motion.peaks[0][0].height},
+                                           {motion.peaks[0][0].height, motion.peaks[0][1].height}});
+    EXPECT_NEAR(0.9, fit_restitution(times, options).restitution, 1e-10);
+    EXPECT_NEAR(0.9, fit_restitution(heights, options).restitution, 1e-10);
+    EXPECT_NEAR(0.890, fit_restitution(times, {}).restitution, 1e-3);
+}
+
+/// Readings of intervals that scatter by 1 ms: the interval of 95 % holds the truth as often.
+TEST(FitInAir, ConfidenceIsWhatItSays) {
+    FitOptions options;
+    options.air = air_of(0.02, 0.0027, 0.45);
+    options.reading_error = 1e-3;
+    std::vector<double> exact;
+    for (double speed = 2.1; exact.size() < 6; speed *= 0.9 * options.air->kept_part(speed))
+        exact.push_back(options.air->interval(speed));
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0, 1e-3);
+    int inside = 0;
+    constexpr int kTrials = 10'000;
+    for (int i = 0; i < kTrials; ++i) {
+        std::vector<double> read = exact;
+        for (double& time : read) time += noise(random);
+        const RestitutionFit fit = fit_restitution(intervals_of(read), options);
+        inside += *fit.low <= 0.9 && 0.9 <= *fit.high ? 1 : 0;
+    }
+    std::printf("in air %.4f of %d intervals of 95 %% hold the truth\n",
+                static_cast<double>(inside) / kTrials, kTrials);
+    EXPECT_GT(inside, 0.945 * kTrials);
+}
+
+TEST(FitInAir, MistakesAreNamed) {
+    Air thick;
+    thick.density = 2000;
+    EXPECT_TRUE(
+        holds(complaint([&] { FallInAir(thick, 0.1, 1, 0.5, kGravity); }), "lighter than the air"));
+    FitOptions options;
+    options.air = air_of(0.1, 0.1, 0.5);
+    EXPECT_TRUE(holds(complaint([&] {
+                          fit_restitution(drops_of({{1, 0.99}}), options);
+                      }),
+                      "would have to gain energy"));
+}
+
 }  // namespace
 }  // namespace carom

@@ -235,7 +235,7 @@ TEST(Errors, Balls) {
          "tennis, volleyball"},
         {"defaults: {ball: {name: x}}",
          "2:19: error: unknown key 'name'; known here: preset, radius, mass, inertia, material, "
-         "look, drop_height, velocity, spin"},
+         "look, drop_height, velocity, spin, drag, lift, spin_decay_s"},
     });
     EXPECT_EQ(errors_of("carom: 1\nballs: [{name: " + std::string(64, 'a') +
                         ", radius: 1, position: [0, 0, 0]}]"),

@@ -166,9 +166,10 @@ TEST(Energy, TheRiseOfAParabola) {
 /// What an account takes from speeds is the energy that was asked for, from the motion relative to
 /// the centre of mass as long as there is some.
 TEST(Energy, AnAccountTakesWhatItIsAskedFor) {
-    EnergyAccount account(Vec3(0, 0, -10));
-    account.add(2, 0.01, 0.1, Vec3(1, 0, 0));
-    account.add(3, 0.02, 0.2, Vec3(2, 0, 0));
+    EnergyAccount account;
+    const Vec3 pull(0, 0, -10);
+    account.add(2, 0.01, 0.1, Vec3(1, 0, 0), pull);
+    account.add(3, 0.02, 0.2, Vec3(2, 0, 0), pull);
     const std::vector<Vec3> places = {Vec3(1, 0, 0.5), Vec3(2, 1, 0)};
     std::vector<Velocities> velocities = {{Vec3(1, 2, 0), Vec3(0, 0, 4)},
                                           {Vec3(-1, 0, 0), Vec3::Zero()}};

@@ -65,7 +65,7 @@ CanCollide can_collide(const Scene& scene, const PairTable& pairs, double durati
     const bool planes =
         std::all_of(scene.surfaces.begin(), scene.surfaces.end(),
                     [](const Surface& s) { return std::holds_alternative<PlaneShape>(s.shape); });
-    if (!planes || balls > kMostBalls) return can;
+    if (!planes || balls > kMostBalls || scene.air) return can;
     const Mat3 free = across_normals(scene);
     if (pairs.any_friction() && !friction_is_idle(scene, free)) return can;
     std::vector<FreeMotion> motions;

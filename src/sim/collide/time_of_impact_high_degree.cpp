@@ -60,10 +60,16 @@ class FirstTouch {
     void offer(LongPolynomial gap, double size, double rate_scale, bool holds, Touched&& touched) {
         if (result_.state == ImpactState::kCapped) return;
         if (touching_ && std::abs(gap.c[0]) <= kContact * size * rate_scale) {
+            const LongPolynomial whole = gap;
+            const double still = kStill * rate_scale * path_.reach();
             gap = gap.divided_by_u();
-            if (gap.c[0] <= kStill * rate_scale * path_.reach()) {
+            if (gap.c[0] <= still) {
                 gap = gap.divided_by_u();
-                if (gap.c[0] < 0) {
+                if (std::abs(gap.c[0]) <= still && path_.flies) {
+                    // Nothing moves or pulls it in yet: it is met once it is in by a rounding.
+                    gap = whole;
+                    gap.c[0] = kRounding * size * rate_scale;
+                } else if (gap.c[0] < 0) {
                     pressed_ |= holds;
                     return;
                 }

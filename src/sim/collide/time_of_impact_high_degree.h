@@ -14,6 +14,8 @@ namespace carom {
 struct HighDegreePath {
     std::array<Vec3, 9> c;
     double seconds = 0;
+    /// Nothing holds the ball: what it touches without speed or pull it may come to press on later.
+    bool flies = false;
 
     HighDegreePath() { c.fill(Vec3::Zero()); }
     Vec3 at(double u) const;

@@ -10,6 +10,8 @@ struct ImpactBody {
     Velocities velocities;
     double mass = 1;       ///< kg
     double inertia = 0.4;  ///< kg m^2, about any axis
+    /// m/s^2: what air does to it, beside gravity, all through a step.
+    Vec3 air = Vec3::Zero();
 };
 
 /// A touch of two of a solver's bodies, or of one and a surface. Balls of the scene have other

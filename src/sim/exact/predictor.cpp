@@ -107,12 +107,14 @@ void Predictor::look_at_surface(Outlook& out, int surface, double now) const {
     const double separation = touching ? path.velocity.dot(nearest.normal) : 0;
     const double still = kStillFraction * path.velocity.norm() + world_.ball(ball).rounding_speed;
     TimeOfImpact toi{ImpactState::kHit, 0};
-    if (!touching || -separation <= still)
-        toi = world_.ball(ball).piece.curve
-                  ? impact_with_surface(high_degree_path(world_.ball(ball).piece, from,
-                                                         world_.ball(ball).phase_end - from),
-                                        radius, shape, touching)
-                  : impact_with_surface(path, radius, shape, touching, until - from);
+    if ((!touching || -separation <= still) && world_.ball(ball).piece.curve) {
+        HighDegreePath curved =
+            high_degree_path(world_.ball(ball).piece, from, world_.ball(ball).phase_end - from);
+        curved.flies = world_.ball(ball).phase() == Phase::kFlight;
+        toi = impact_with_surface(curved, radius, shape, touching);
+    } else if (!touching || -separation <= still) {
+        toi = impact_with_surface(path, radius, shape, touching, until - from);
+    }
     if (toi.state == ImpactState::kHit || toi.state == ImpactState::kPressed)
         toi = beside_held(ball, surface, toi, from);
     keep_if_earlier(out, toi, {partner, touching, separation, from}, now);

@@ -10,6 +10,7 @@
 #include "sim/fixed/contact_finder.h"
 #include "sim/fixed/contact_solver.h"
 #include "sim/fixed/ode_world.h"
+#include "sim/law/air_force.h"
 #include "sim/record/event_log.h"
 #include "sim/record/kept_limit.h"
 #include "sim/record/model_features.h"
@@ -79,6 +80,7 @@ class FixedRun {
 
   private:
     void solve();
+    void add_air();
     void read_state();
     void record();
     void watch_for_tunnelling();
@@ -100,6 +102,7 @@ class FixedRun {
         double way;  ///< m
     };
     std::optional<TooFar> too_far_;
+    std::vector<AirForce> air_;  ///< per ball; empty where the scene has none
 
     // The balls before and after the step, and what touched.
     std::vector<Vec3> position_before_, position_;
@@ -119,6 +122,8 @@ FixedRun::FixedRun(const Scene& scene)
     const std::size_t balls = scene.balls.size();
     for (const Ball& ball : scene.balls)
         recorders_.emplace_back(ball.radius, scene.simulation.gravity);
+    if (scene.air)
+        for (const Ball& ball : scene.balls) air_.emplace_back(*scene.air, ball);
     position_.resize(balls);
     after_.resize(balls);
     touching_.resize(balls);
@@ -153,11 +158,23 @@ void FixedRun::solve() {
     try {
         find_contacts(world_, pairs_, contacts_);
         solver_.add_joints(contacts_, before_);
+        add_air();
         solver_.step();
     } catch (const OdeFatal& error) {
         fail(error.what());
     }
     if (!messages.empty()) fail(messages.text());
+}
+
+/// As the air is at the step's start.
+void FixedRun::add_air() {
+    for (std::size_t b = 0; b < air_.size(); ++b) {
+        const Velocities& v = before_[b];
+        world_.accelerate(static_cast<int>(b),
+                          air_[b].acceleration(v.linear, v.spin) -
+                              air_[b].buoyant_part() * scene_.simulation.gravity,
+                          -air_[b].spin_decay() * v.spin);
+    }
 }
 
 void FixedRun::read_state() {
@@ -195,7 +212,8 @@ Effect FixedRun::tunnelling() const {
 }
 
 void FixedRun::record() {
-    std::fill(touching_.begin(), touching_.end(), 0);
+    // In air no flight is free.
+    std::fill(touching_.begin(), touching_.end(), air_.empty() ? 0 : 1);
     std::fill(impact_.begin(), impact_.end(), 0);
     const auto mark = [this](int ball, bool impact) {
         touching_[static_cast<std::size_t>(ball)] = 1;

@@ -122,6 +122,14 @@ dJointID OdeWorld::add_contact(const dContact& contact, int ball, const Partner&
     return joint;
 }
 
+void OdeWorld::accelerate(int ball, const Vec3& linear, const Vec3& spin) {
+    dMass mass;
+    dBodyGetMass(body(ball), &mass);
+    const Vec3 force = mass.mass * linear, torque = mass.I[0] * spin;  // a ball's has no direction
+    dBodyAddForce(body(ball), force.x(), force.y(), force.z());
+    dBodyAddTorque(body(ball), torque.x(), torque.y(), torque.z());
+}
+
 void OdeWorld::step(double seconds, int iterations) {
     if (iterations > 0) dWorldSetQuickStepNumIterations(world(), iterations);
     const int ok =

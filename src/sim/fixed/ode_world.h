@@ -41,6 +41,9 @@ class OdeWorld {
     /// A contact joint of this step. `other` is the second ball, or none for a surface.
     dJointID add_contact(const dContact& contact, int ball, const Partner& other);
 
+    /// Adds to what gravity does to a ball in the next step [m/s^2], and to its spin [rad/s^2].
+    void accelerate(int ball, const Vec3& linear, const Vec3& spin);
+
     /// One step of `seconds` with the joints added since clear_contacts().
     /// `iterations` 0: dWorldStep; otherwise dWorldQuickStep.
     void step(double seconds, int iterations);

@@ -45,16 +45,12 @@ double normal_speed(const SolverContact& c, const std::vector<ImpactBody>& bodie
 
 IslandStep::IslandStep(const ExactWorld& world, const Links& links, const std::vector<int>& balls,
                        double now)
-    : world_(world),
-      balls_(balls),
-      account_(world.scene.simulation.gravity),
-      results_(balls.size()),
-      after_(balls.size()) {
+    : world_(world), balls_(balls), results_(balls.size()), after_(balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const BallState& start = results_[i].start = world.state(balls[i], now);
         const ExactBall& b = world.ball(balls[i]);
         account_.add(b.mass, b.inertia_factor * b.mass * b.radius * b.radius, b.radius,
-                     start.position);
+                     start.position, world.pull_on(balls[i], {start.velocity, start.spin}));
         for (const Link& link : links.of(balls[i])) {
             const Contact c = world.contact_at(balls[i], link.partner, now);
             if (c.ball != balls[i]) continue;
@@ -138,7 +134,8 @@ std::vector<ImpactBody> IslandStep::bodies(double ahead) const {
         all.push_back({s.position + ahead * s.velocity,
                        {s.velocity, s.spin},
                        b.mass,
-                       b.inertia_factor * b.mass * b.radius * b.radius});
+                       b.inertia_factor * b.mass * b.radius * b.radius,
+                       world_.air_on(balls_[i], {s.velocity, s.spin})});
     }
     return all;
 }
@@ -171,6 +168,7 @@ void IslandStep::stop_approaches(IslandSolver& solver) {
         c.depth = 0;
     }
     if (!approaches) return;
+    for (ImpactBody& body : meeting) body.air.setZero();
     std::vector<Vec3> pushes(pushes_.size(), Vec3::Zero());
     solver.step(meeting, local, pushes, Vec3::Zero(), seconds_);
     std::vector<Velocities> velocities;
@@ -267,8 +265,13 @@ bool IslandStep::is_calm(double speed) const {
         const double turned = (after_[i].spin - results_[i].start.spin).norm();
         if (world_.ball(balls_[i]).radius * turned > speed) return false;
     }
-    return std::all_of(contacts_.begin(), contacts_.end(), [speed](const Contact& c) {
-        return c.friction == 0 || c.slip_after.norm() <= speed;
+    return std::all_of(contacts_.begin(), contacts_.end(), [&](const Contact& c) {
+        if (c.friction > 0 && c.slip_after.norm() > speed) return false;
+        if (c.laws == nullptr || !(c.laws->pivoting > 0)) return true;
+        // However slowly pivoting ends it.
+        Vec3 spin = after_[index_of(c.ball)].spin;
+        if (!c.other.is_surface) spin -= after_[index_of(c.other.index)].spin;
+        return world_.ball(c.ball).radius * std::abs(spin.dot(c.normal)) <= speed;
     });
 }
 

@@ -106,11 +106,11 @@ double PileStep::kinetic_energy() const {
 
 /// What gravity has given over the step: m g . h (v + v')/2 of all.
 double PileStep::fall_energy() const {
-    const Vec3 g = world_.scene.simulation.gravity;
     double sum = 0;
     for (const int ball : balls_.awake()) {
         const PileBody& b = balls_.body(ball);
-        sum += g.dot(balls_.of(ball).started.linear + b.velocity) / b.inverse_mass;
+        const Vec3 pull = world_.pull_on(ball, balls_.of(ball).started);
+        sum += pull.dot(balls_.of(ball).started.linear + b.velocity) / b.inverse_mass;
     }
     return 0.5 * seconds_ * sum;
 }
@@ -234,8 +234,8 @@ void PileStep::solve_forces() {
         row.push = pair.force * seconds_;
         row.tangential = pair.friction_force * seconds_;
     }
-    const Vec3 fall = seconds_ * world_.scene.simulation.gravity;
-    for (const int ball : balls_.awake()) balls_.body(ball).velocity += fall;
+    for (const int ball : balls_.awake())
+        balls_.body(ball).velocity += seconds_ * world_.pull_on(ball, balls_.of(ball).started);
     sweep_pile(balls_.bodies(), rows_, kForceSweeps);
     slow_down(kinetic_energy() - before - fall_energy());
     for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -275,8 +275,7 @@ void PileStep::resist_rolling(const PilePair& pair, const PileRow& row) {
     contact.normal = row.normal;
     contact.friction = row.friction;
     contact.laws = pair.laws;
-    resist(contact, {row.push, row.tangential}, ball.ball,
-           row.other >= 0 ? &other.ball : nullptr);
+    resist(contact, {row.push, row.tangential}, ball.ball, row.other >= 0 ? &other.ball : nullptr);
     end(pair.ball, ball);
     if (row.other >= 0) end(row.other, other);
 }
@@ -313,7 +312,7 @@ void PileStep::part_overlaps(double budget) {
     const auto shift = [&](int ball) -> Vec3& { return shift_[static_cast<std::size_t>(ball)]; };
     double rise = 0;
     for (const int ball : balls_.awake())
-        rise -= world_.ball(ball).mass * world_.scene.simulation.gravity.dot(shift(ball));
+        rise -= world_.ball(ball).mass * world_.pull(ball).dot(shift(ball));
     const double most = std::max(budget, 0.0);
     const double factor = rise > most ? most / rise : 1;
     for (const int ball : balls_.awake()) {

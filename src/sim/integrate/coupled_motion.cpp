@@ -54,9 +54,9 @@ class CoupledLaw {
         for (std::size_t i = 0; i < system_.ball_count; ++i) {
             const CoupledBall& ball = system_.balls[i];
             error += ball.mass * energy_difference(a[i], b[i], ball.radius, ball.inertia_factor,
-                                                   system_.gravity);
+                                                   system_.pull(i));
             in_play +=
-                ball.mass * energy_in_play(b[i], ball.radius, ball.inertia_factor, system_.gravity);
+                ball.mass * energy_in_play(b[i], ball.radius, ball.inertia_factor, system_.pull(i));
         }
         return error / in_play;
     }

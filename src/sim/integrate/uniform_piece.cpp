@@ -31,6 +31,7 @@ Vec3 spin_rate(const CoupledContacts& system, const CoupledForces& f, std::size_
 }
 
 bool is_steady(const CoupledContacts& system, const CoupledState& state, const CoupledForces& f) {
+    if (system.in_air()) return false;
     for (std::size_t b = 0; b < system.ball_count; ++b)
         if (!is_parallel(state[b].w, spin_rate(system, f, b))) return false;
     for (std::size_t i = 0; i < system.contact_count; ++i) {

@@ -10,6 +10,11 @@ double CoupledContacts::smallest_radius() const {
     return radius;
 }
 
+bool CoupledContacts::in_air() const {
+    return std::any_of(balls.begin(), balls.begin() + ball_count,
+                       [](const CoupledBall& b) { return b.air != nullptr; });
+}
+
 double CoupledContacts::weight_at(const CoupledContact& c) const {
     double mass = balls[static_cast<std::size_t>(c.ball)].mass;
     if (c.other >= 0) mass = std::min(mass, balls[static_cast<std::size_t>(c.other)].mass);

@@ -28,6 +28,8 @@ struct CoupledBall {
     double radius = 0.1;
     double mass = 1;
     double inertia_factor = 0.4;
+    double buoyant_part = 0;        ///< gravity less this part of it pulls the ball
+    const AirForce* air = nullptr;  ///< as in SingleContact
 };
 
 struct CoupledContacts {
@@ -35,7 +37,11 @@ struct CoupledContacts {
     std::array<CoupledContact, kMostCoupledContacts> contacts;
     std::size_t ball_count = 0;
     std::size_t contact_count = 0;
-    Vec3 gravity = Vec3::Zero();  ///< m/s^2
+    Vec3 gravity = Vec3::Zero();  ///< m/s^2: the size of what acts
+
+    bool in_air() const;  ///< whether moving through air acts on a ball
+    /// Gravity less buoyancy, m/s^2.
+    Vec3 pull(std::size_t ball) const { return (1 - balls[ball].buoyant_part) * gravity; }
 
     double smallest_radius() const;
     /// The weight of the lighter ball of a contact [N]: the size of what acts there.

@@ -53,6 +53,11 @@ ContactMotion contact_motion(const CoupledContacts& system, const CoupledContact
 
 ContactMotions contact_motions(const CoupledContacts& system, const CoupledState& state) {
     ContactMotions at;
+    for (std::size_t b = 0; b < system.ball_count; ++b) {
+        const CoupledBall& ball = system.balls[b];
+        at.pull[b] = system.pull(b);
+        if (ball.air != nullptr) at.pull[b] += ball.air->acceleration(state[b].v, state[b].w);
+    }
     for (std::size_t i = 0; i < system.contact_count; ++i)
         at[i] = contact_motion(system, system.contacts[i], state);
     return at;

@@ -17,7 +17,13 @@ struct ContactMotion {
     Vec3 n, n_rate, across_speed, turn_speed, slip;
     double gap = 0, speed = 0;
 };
-using ContactMotions = std::array<ContactMotion, kMostCoupledContacts>;
+struct ContactMotions {
+    std::array<ContactMotion, kMostCoupledContacts> contacts;
+    std::array<Vec3, kMostCoupledBalls> pull;  ///< of gravity and air, m/s^2, per ball
+
+    ContactMotion& operator[](std::size_t i) { return contacts[i]; }
+    const ContactMotion& operator[](std::size_t i) const { return contacts[i]; }
+};
 
 ContactMotions contact_motions(const CoupledContacts& system, const CoupledState& state);
 

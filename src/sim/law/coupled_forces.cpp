@@ -30,9 +30,12 @@ constexpr double kSmoothTurn = 0.01;
 constexpr int kPlaceRounds = 3;
 
 /// What the equations have to bring about: gaps that stay shut, slips that stay 0.
-double wanted_by(const CoupledContacts& system, const ForceRow& row, const ContactMotion& m) {
+double wanted_by(const CoupledContacts& system, const ForceRow& row, const ContactMotions& at) {
     const CoupledContact& c = system.contacts[row.contact];
-    const double pull = c.other < 0 ? row.along.dot(system.gravity) : 0;
+    const ContactMotion& m = at[row.contact];
+    Vec3 apart = at.pull[static_cast<std::size_t>(c.ball)];
+    if (c.other >= 0) apart -= at.pull[static_cast<std::size_t>(c.other)];
+    const double pull = row.along.dot(apart);
     return row.normal ? -m.across_speed.dot(m.n_rate) - pull
                       : row.along.dot(m.turn_speed.cross(m.n_rate)) - pull;
 }
@@ -66,13 +69,13 @@ CoupledForces forces_with(const CoupledContacts& system, const ContactMotions& a
     for (std::size_t i = 0; i < equations.count(); ++i) {
         const ForceRow& row = equations.row(i);
         double& rate = wanted[static_cast<Eigen::Index>(i)];
-        rate = wanted_by(system, row, at[row.contact]);
+        rate = wanted_by(system, row, at);
         for (const ForceRow& h : held) rate -= equations.effect(i, h, h.force);
     }
     const ForceSizes sizes = equations.solve(wanted);
 
     CoupledChange change;
-    change.linear.fill(system.gravity);
+    for (std::size_t b = 0; b < system.ball_count; ++b) change.linear[b] = at.pull[b];
     equations.apply(sizes, change);
     CoupledForces r;
     for (const ForceRow& h : held) {

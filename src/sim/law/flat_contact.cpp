@@ -104,7 +104,8 @@ void slow_pivot(const FlatContact& contact, FlatMotion& motion, double slip_tole
     const double spin = motion.velocities.spin.dot(n);
     const double rate = contact.pivoting * g_n / (contact.inertia_factor * R * R);
     // Rounding of the time leaves so much more of it as the rim slows faster than gravity pulls.
-    if (R * std::abs(spin) <= slip_tolerance * (1 + R * rate / g_n)) {
+    const double faster = contact.pivoting / (contact.inertia_factor * R);
+    if (R * std::abs(spin) <= slip_tolerance * (1 + faster)) {
         motion.velocities.spin -= spin * n;
         return;
     }

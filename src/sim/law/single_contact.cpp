@@ -40,16 +40,17 @@ SingleContactForces single_contact_forces(const SingleContact& c, ContactMode mo
     r.normal = motion.normal;
     r.normal_rate = motion.normal_rate;
     const Vec3& n = r.normal;
-    const double g_n = -c.gravity.dot(n);
+    const Vec3 gravity = c.pull(state);
+    const double g_n = -gravity.dot(n);
     r.push = g_n - state.v.dot(r.normal_rate);
-    r.acceleration = c.gravity + r.push * n;
+    r.acceleration = gravity + r.push * n;
     if (c.pivoting > 0) r.spin_rate = pivot_rate(c, r, state) * n;
     if (mode == ContactMode::kSmooth) return r;
 
     const double R = c.radius, k = c.inertia_factor;
     const double spin_n = state.w.dot(n);
     r.slip = state.v - n.dot(state.v) * n - R * state.w.cross(n);
-    r.drive = c.gravity + g_n * n - (R * spin_n) * n.cross(r.normal_rate);
+    r.drive = gravity + g_n * n - (R * spin_n) * n.cross(r.normal_rate);
     if (mode == ContactMode::kRolling) {
         r.friction = -(k / (1 + k)) * r.drive;
     } else {

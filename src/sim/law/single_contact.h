@@ -5,19 +5,33 @@
 
 #include "geometry/feature.h"
 #include "sim/contact/contact.h"
+#include "sim/law/air_force.h"
 
 namespace carom {
 
+/// Centre, velocity and spin.
+struct ContactState {
+    Vec3 x = Vec3::Zero();
+    Vec3 v = Vec3::Zero();
+    Vec3 w = Vec3::Zero();
+};
+
 /// The ball's centre keeps its distance from the core of one feature of the surface.
 struct SingleContact : Feature {
-    double radius = 0.1;          ///< of the ball, m
-    double inertia_factor = 0.4;  ///< k of I = k m r^2
-    double friction = 0;          ///< Coulomb's mu
-    Vec3 gravity = Vec3::Zero();  ///< m/s^2
-    double rolling = 0;           ///< as in FlatContact
+    double radius = 0.1;            ///< of the ball, m
+    double inertia_factor = 0.4;    ///< k of I = k m r^2
+    double friction = 0;            ///< Coulomb's mu
+    Vec3 gravity = Vec3::Zero();    ///< less buoyancy, m/s^2
+    const AirForce* air = nullptr;  ///< what moving through air does to the ball; null for nothing
+    double rolling = 0;             ///< as in FlatContact
     double pivoting = 0;
     bool roll_begins = false;  ///< it still goes where gravity pulls: that is resisted
     int pivots = 0;            ///< sign of the spin about the normal; 0 while friction holds it
+
+    /// Gravity and air together, m/s^2.
+    Vec3 pull(const ContactState& state) const {
+        return air == nullptr ? gravity : Vec3(gravity + air->acceleration(state.v, state.w));
+    }
 };
 
 /// The contact of a ball at `x` [m] that touches `shape`. On the border of two features the motion
@@ -31,13 +45,6 @@ enum class ContactMode {
     kSliding,    ///< friction mu N against the slip
     kIncipient,  ///< the same while the slip is still so small that it follows what drives it
     kRolling     ///< no slip; friction as much as that takes
-};
-
-/// Centre, velocity and spin.
-struct ContactState {
-    Vec3 x = Vec3::Zero();
-    Vec3 v = Vec3::Zero();
-    Vec3 w = Vec3::Zero();
 };
 
 /// Accelerations and forces [m/s^2: per mass of the ball].

@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "geometry/feature.h"
 #include "geometry/feature_side.h"
+#include "sim/integrate/flight_piece.h"
 #include "sim/law/flat_contact.h"
 #include "sim/math/polynomial.h"
 
@@ -16,6 +17,9 @@ namespace carom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// s, of a piece of a flight through air: what is tried first, and the longest.
+constexpr double kFirstFlight = 0.1, kLongestFlight = 10;
 
 /// Seconds until the contact point leaves the face that the ball is on. A ball that goes along a
 /// border has left when it is beyond the border's width.
@@ -76,7 +80,7 @@ double seconds_on_face(const Piece& piece, double radius, const SurfaceShape& sh
 FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& contact) {
     const ExactBall& body = world.ball(ball);
     FlatContact flat{contact.normal, body.radius, body.inertia_factor, contact.friction,
-                     world.scene.simulation.gravity};
+                     world.pull(ball)};
     if (contact.laws != nullptr) {
         flat.rolling = contact.laws->rolling;
         flat.pivoting = contact.laws->pivoting;
@@ -97,12 +101,35 @@ void ClosedForms::begin_flight(int ball, double now, const Velocities& velocitie
     at.velocity = velocities.linear;
     at.spin = velocities.spin;
     world_.set_phase(ball, Phase::kFlight);
-    world_.begin_piece(ball, now, at, world_.scene.simulation.gravity, Vec3::Zero());
+    if (world_.feels_air(ball) || world_.spin_decays(ball)) {
+        if (in_air_.empty()) in_air_.resize(world_.balls.size());
+        InAir& flight = in_air_[static_cast<std::size_t>(ball)];
+        flight.speed = at.velocity.norm();
+        flight.way = world_.ball(ball).radius;
+        if (const double g = world_.pull(ball).norm(); g > 0)
+            flight.way += std::min(flight.speed * flight.speed / (2 * g), flight.speed);
+        fly_on(ball, now, at);
+        return;
+    }
+    world_.begin_piece(ball, now, at, world_.pull(ball), Vec3::Zero());
+}
+
+void ClosedForms::fly_on(int ball, double now) { fly_on(ball, now, world_.state(ball, now)); }
+
+void ClosedForms::fly_on(int ball, double now, const BallState& at) {
+    InAir& flight = in_air_[static_cast<std::size_t>(ball)];
+    const FlightPiece piece = flight_piece(
+        world_.air(ball), {at.velocity, at.spin, world_.pull(ball), flight.way, flight.speed}, now,
+        flight.next_seconds > 0 ? flight.next_seconds : kFirstFlight, kLongestFlight);
+    flight.next_seconds = piece.next_seconds;
+    world_.ball(ball).phase_end = now + piece.seconds;
+    world_.begin_piece(ball, now, at, piece.acceleration, piece.spin_rate,
+                       OptionalCurve(piece.curve));
 }
 
 bool ClosedForms::can_hold(int ball, double now, const Contact& contact,
                            const Velocities& velocities) const {
-    return contact.other.is_surface &&
+    return contact.other.is_surface && !world_.feels_air(ball) &&
            is_flat(world_.surface(contact.other.index).shape, contact.normal) &&
            flat_motion(flat_contact(world_, ball, contact), velocities,
                        rules_.slip_tolerance(ball, now, velocities))

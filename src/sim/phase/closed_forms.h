@@ -1,6 +1,8 @@
 // Motions with a closed form: flight, and a lasting contact with a flat surface.
 #pragma once
 
+#include <vector>
+
 #include "sim/phase/contact_rules.h"
 #include "sim/phase/run_log.h"
 
@@ -19,6 +21,8 @@ class ClosedForms {
         : world_(world), rules_(rules), log_(log), end_(end) {}
 
     void begin_flight(int ball, double now, const Velocities& velocities);
+    /// The next piece of a flight through air.
+    void fly_on(int ball, double now);
     /// Whether a lasting contact has a closed form: on a flat surface, slip that does not turn.
     bool can_hold(int ball, double now, const Contact& contact, const Velocities& velocities) const;
     /// Only where can_hold().
@@ -33,10 +37,18 @@ class ClosedForms {
               const Onset& onset);
 
   private:
+    void fly_on(int ball, double now, const BallState& at);
+
     ExactWorld& world_;
     const ContactRules& rules_;
     RunLog& log_;
     double end_;
+    /// Of a ball in air: a good length for its next piece [s], and how far [m] and fast [m/s] it
+    /// goes.
+    struct InAir {
+        double next_seconds = 0, way = 0, speed = 0;
+    };
+    std::vector<InAir> in_air_;  ///< per ball; empty where none flies in air
 };
 
 }  // namespace carom

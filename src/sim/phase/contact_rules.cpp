@@ -25,6 +25,12 @@ constexpr double kFineGap = 1e-10;
 /// A force of this fraction of a ball's weight is none: more than the rounding of the forces.
 constexpr double kBalanced = 1e-11;
 
+/// What a pull [m/s^2] presses with along a normal; 0 where that is none, but for rounding.
+double pressing_pull(const Vec3& pull, const Vec3& normal) {
+    const double g_n = -pull.dot(normal);
+    return g_n > 1e-14 * pull.norm() ? g_n : 0;
+}
+
 }  // namespace
 
 double ContactRules::hop_limit(int ball, const Vec3& position) const {
@@ -32,17 +38,13 @@ double ContactRules::hop_limit(int ball, const Vec3& position) const {
                     kLastRoundings * position.cwiseAbs().maxCoeff());
 }
 
-double ContactRules::pressing_gravity(const Vec3& normal) const {
-    const Vec3& g = world_.scene.simulation.gravity;
-    const double g_n = -g.dot(normal);
-    return g_n > 1e-14 * g.norm() ? g_n : 0;
-}
-
 double ContactRules::pressing(const Contact& c, double now, const Vec3& velocity) const {
+    const Vec3 g = world_.pull_on(
+        c.ball, {velocity, world_.feels_air(c.ball) ? world_.velocities(c.ball, now).spin
+                                                    : Vec3(Vec3::Zero())});
     if (!c.other.is_surface || is_convex(world_.surface(c.other.index).shape))
-        return pressing_gravity(c.normal);
+        return pressing_pull(g, c.normal);
     const Vec3 x = world_.position(c.ball, now), v = tangential_part(velocity, c.normal);
-    const Vec3& g = world_.scene.simulation.gravity;
     const FeatureMotion motion =
         feature_at(world_.surface(c.other.index).shape, {x, v, g}, world_.ball(c.ball).radius)
             .motion_at(x, v);
@@ -61,7 +63,9 @@ double ContactRules::slip_tolerance(int ball, double now, const Velocities& velo
 bool ContactRules::approaches_at_start(int ball, const std::vector<Contact>& contacts) const {
     return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
         const double v = -c.separation_speed;
-        const double g_n = -world_.scene.simulation.gravity.dot(c.normal);
+        const double g_n =
+            -world_.pull_on(ball, {world_.body(ball).velocity, world_.body(ball).spin})
+                 .dot(c.normal);
         return v > kStillFraction * world_.body(ball).velocity.norm() &&
                !(v * v / 2 < g_n * hop_limit(ball, world_.body(ball).position));
     });

@@ -17,11 +17,9 @@ class ContactRules {
 
     /// m: a hop lower than this drowns in the rounding of the ball's place.
     double hop_limit(int ball, const Vec3& position) const;
-    /// What gravity presses with along a normal, m/s^2; 0 where that is none, but for rounding.
-    double pressing_gravity(const Vec3& normal) const;
-    /// What presses a ball of the velocity `velocity` [m/s] onto a surface, m/s^2: gravity, and on
-    /// a surface that bends towards the ball, such as the inside of a ring, its own motion along
-    /// it.
+    /// What presses a ball of the velocity `velocity` [m/s] onto a surface, m/s^2: gravity and
+    /// air, and on a surface that bends towards the ball, such as the inside of a ring, its own
+    /// motion along it. 0 where that is none, but for rounding.
     double pressing(const Contact& contact, double now, const Vec3& velocity) const;
     /// m/s: a slip is none if it is rounding of the velocities, or ends within that of the time.
     double slip_tolerance(int ball, double now, const Velocities& velocities) const;

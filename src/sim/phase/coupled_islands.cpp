@@ -67,7 +67,9 @@ bool CoupledIslands::coupled_system(const std::vector<int>& island, double now,
     };
     for (std::size_t b = 0; b < island.size(); ++b) {
         const ExactBall& body = world_.ball(island[b]);
-        system.balls[b] = {body.radius, body.mass, body.inertia_factor};
+        system.balls[b] = {body.radius, body.mass, body.inertia_factor,
+                           world_.buoyant_part(island[b]),
+                           world_.feels_air(island[b]) ? &world_.air(island[b]) : nullptr};
         const Velocities velocities = world_.velocities(island[b], now);
         is.state[b] = {world_.position(island[b], now), velocities.linear, velocities.spin};
         for (const Link& link : links_.of(island[b])) {
@@ -81,9 +83,10 @@ bool CoupledIslands::coupled_system(const std::vector<int>& island, double now,
             contact.friction = c.friction;
             if (link.slip_begins) contact.mode = ContactMode::kIncipient;
             if (c.other.is_surface) {
-                contact.feature = single_contact(world_.surface(c.other.index).shape, is.state[b].x,
-                                                 tangential_part(velocities.linear, c.normal),
-                                                 body.radius, system.gravity);
+                contact.feature =
+                    single_contact(world_.surface(c.other.index).shape, is.state[b].x,
+                                   tangential_part(velocities.linear, c.normal), body.radius,
+                                   world_.pull_on(island[b], velocities));
                 add_borders_of_others(world_, c, is.state[b], contact.feature);
             } else {
                 contact.other = place(c.other.index);
@@ -102,7 +105,7 @@ void CoupledIslands::pay_for_places(const std::vector<int>& island, double now,
     if (std::none_of(island.begin(), island.end(),
                      [this](int ball) { return world_.ball(ball).coarse; }))
         return;
-    EnergyAccount account(is.system.gravity);
+    EnergyAccount account;
     std::vector<Vec3> old_places, places;
     std::vector<Velocities> old_velocities, velocities;
     for (std::size_t b = 0; b < island.size(); ++b) {
@@ -110,7 +113,7 @@ void CoupledIslands::pay_for_places(const std::vector<int>& island, double now,
         old_places.push_back(world_.position(island[b], now));
         old_velocities.push_back(world_.velocities(island[b], now));
         account.add(ball.mass, ball.inertia_factor * ball.mass * ball.radius * ball.radius,
-                    ball.radius, old_places.back());
+                    ball.radius, old_places.back(), is.system.pull(b));
         places.push_back(is.state[b].x);
         velocities.push_back({is.state[b].v, is.state[b].w});
     }

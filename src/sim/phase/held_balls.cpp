@@ -90,6 +90,10 @@ HeldBalls::Handover HeldBalls::end_phase(int ball, double now) {
         world_.renew(ball);
         return {};
     }
+    if (b.phase() == Phase::kFlight) {
+        forms_.fly_on(ball, now);
+        return {};
+    }
     const Velocities velocities = world_.velocities(ball, now);
     if (b.phase() == Phase::kIntegrated) return end_integrated(ball, now);
     const Contact c = world_.contact_at(ball, {true, b.surface}, now);
@@ -103,7 +107,7 @@ HeldBalls::Handover HeldBalls::begin(int ball, double now, const Contact& contac
     const Vec3 v = tangential_part(velocities.linear, contact.normal);
     const SingleContact feature =
         single_contact(world_.surface(contact.other.index).shape, world_.position(ball, now), v,
-                       world_.ball(ball).radius, world_.scene.simulation.gravity);
+                       world_.ball(ball).radius, world_.pull_on(ball, {v, velocities.spin}));
     // At the border of a face the motion says whether it is still on it.
     if (is_plane(feature) && forms_.can_hold(ball, now, contact, velocities))
         forms_.begin_flat_contact(ball, now, contact, velocities, onset);
@@ -133,7 +137,7 @@ HeldBalls::Handover HeldBalls::begin_integrated(int ball, double now, const Cont
     const SingleContact feature =
         single_contact(world_.surface(contact.other.index).shape, world_.position(ball, now),
                        tangential_part(velocities.linear, contact.normal), world_.ball(ball).radius,
-                       world_.scene.simulation.gravity);
+                       world_.pull_on(ball, velocities));
     return begin_integrated_on(ball, now, contact, feature, velocities, onset);
 }
 
@@ -142,10 +146,11 @@ HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const C
                                                    const Velocities& velocities,
                                                    const Onset& onset) {
     const ExactBall& body = world_.ball(ball);
-    const Vec3& gravity = world_.scene.simulation.gravity;
     IntegratedPhase& phase = integrated_[ball];
     phase.state = {world_.position(ball, now), velocities.linear, velocities.spin};
     phase.contact = feature;
+    phase.contact.gravity = world_.pull(ball);
+    phase.contact.air = world_.feels_air(ball) ? &world_.air(ball) : nullptr;
     add_borders_of_others(world_, contact, phase.state, phase.contact);
     phase.contact.inertia_factor = body.inertia_factor;
     phase.contact.friction = contact.friction;
@@ -159,7 +164,8 @@ HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const C
         choose_mode(phase, rules_.slip_tolerance(ball, now, velocities));
     if (!(forces.push > lift_off_threshold(phase.contact, phase.state.x)))
         return lift_off(ball, now, contact.other, forces.normal);
-    Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
+    const Vec3 gravity = phase.contact.pull(phase.state);
+    const Vec3 pull = gravity + gravity.dot(-forces.normal) * forces.normal;
     const bool seated = pull.norm() < phase.contact.hold * forces.push &&
                         phase.state.v.norm() < kSeated * std::sqrt(gravity.norm() * body.radius);
     if (seated) sit(phase, forces.normal);
@@ -189,9 +195,8 @@ void HeldBalls::begin_rest(int ball, double now, const SingleContactForces& forc
     Vec3 spin_rate = Vec3::Zero();
     world_.ball(ball).phase_end = kInfinity;
     if (phase.contact.pivots != 0) {
-        const double push = -phase.contact.gravity.dot(forces.normal);
         const double rate =
-            phase.contact.pivoting * push /
+            phase.contact.pivoting * forces.push /
             (phase.contact.inertia_factor * phase.contact.radius * phase.contact.radius);
         const double spin = at.spin.dot(forces.normal);
         spin_rate = -std::copysign(rate, spin) * forces.normal;
@@ -329,11 +334,12 @@ void HeldBalls::put_at(int ball, double now, const Vec3& x) {
 Contact HeldBalls::meet(int ball, const Partner& partner, double seconds, double now) {
     ExactBall& b = world_.ball(ball);
     put_on_surface(ball, now);
-    if (!partner.is_surface || b.phase() == Phase::kIsland || b.piece.curve)
+    const bool held = b.piece.curve && b.surface >= 0;
+    if (!partner.is_surface || b.phase() == Phase::kIsland || held)
         return world_.contact_at(ball, partner, now);
     const double lost = seconds - (now - b.piece.start);
     b.piece.position += lost * world_.velocities(ball, now).linear;
-    b.piece.velocity += lost * b.piece.acceleration;
+    b.piece.velocity += lost * b.piece.acceleration_at(now);
     Contact met = world_.contact_at(ball, partner, now);
     b.piece.position += met.depth * met.normal;
     met.depth = 0;

@@ -98,7 +98,7 @@ void Piles::end_step() {
 void Piles::move(int ball, double now) {
     const PileBall& c = pile_.balls().of(ball);
     const Piece& piece = world_.ball(ball).piece;
-    const Vec3& gravity = world_.scene.simulation.gravity;
+    const Vec3 gravity = world_.pull_on(ball, {c.started.linear, c.started.spin});
     // A flight goes on.
     if (!c.pushed && piece.acceleration == gravity && piece.spin_rate.isZero(0)) return;
     BallState at = c.at;

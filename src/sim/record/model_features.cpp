@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace carom {
 
@@ -44,6 +45,12 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
     effects["gravity"] = g > 0 ? Effect{true, fmt::format("{} m/s^2", g)}
                                : Effect{false, "simulation.gravity is [0, 0, 0]"};
 
+    if (scene.air)
+        effects["air"] = {true, fmt::format("{} kg/m^3{}", scene.air->density,
+                                            scene.air->buoyancy ? "" : ", without buoyancy")};
+    else
+        effects["air"] = {false, "the scene names none: no drag, no lift, no buoyancy"};
+
     const std::size_t surfaces = scene.surfaces.size();
     effects["surfaces"] = surfaces > 0 ? Effect{true, fmt::format("the scene has {}", surfaces)}
                                        : Effect{false, "the scene has none"};
@@ -66,7 +73,12 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
     add_law_effects(effects, scene, pairs);
     const bool spins = std::any_of(scene.balls.begin(), scene.balls.end(),
                                    [](const Ball& b) { return !b.spin.isZero(0); });
-    effects["spin"] = friction ? Effect{true, "friction turns the balls"}
+    const bool decays =
+        scene.air && std::any_of(scene.balls.begin(), scene.balls.end(), [](const Ball& b) {
+            return b.flight.spin_decay_s < std::numeric_limits<double>::infinity();
+        });
+    effects["spin"] = decays && spins ? Effect{true, "the air takes spin away"}
+                      : friction      ? Effect{true, "friction turns the balls"}
                       : spins && effects.at("pivoting").on
                           ? Effect{true, "a ball spins at the start, and contacts slow that"}
                       : spins ? Effect{true, "a ball spins at the start; nothing changes its spin"}

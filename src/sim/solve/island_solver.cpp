@@ -119,7 +119,12 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<SolverConta
         const Vec3 relative = relative_of(c, bodies);
         const double v_n = relative.dot(c.normal);
         // Two balls fall alike: gravity only matters against a surface.
-        const Vec3 fall = c.on_surface() ? Vec3(seconds * gravity) : Vec3(Vec3::Zero());
+        Vec3 pull = bodies[static_cast<std::size_t>(c.body)].air;
+        if (c.on_surface())
+            pull += gravity;
+        else
+            pull -= bodies[static_cast<std::size_t>(c.other_body)].air;
+        const Vec3 fall = seconds * pull;
         c.approach_speed = -v_n;
         c.slip = tangential_part(relative, c.normal);
         c.alone = contacts.size() == 1;
@@ -131,7 +136,7 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<SolverConta
         if (!c.alone && std::abs(v_n + fall.dot(c.normal) - target) <= tie) target -= 2 * tie;
     }
     if (contacts.size() > kManyContacts || !solve_with_ode(bodies, contacts, gravity, seconds)) {
-        for (ImpactBody& b : bodies) b.velocities.linear += seconds * gravity;
+        for (ImpactBody& b : bodies) b.velocities.linear += seconds * (gravity + b.air);
         world_->pushes = pushes;
         solve_island_by_gauss_seidel(bodies, contacts, world_->target, world_->pushes);
     }

@@ -27,6 +27,10 @@ void OdeBodies::place(dWorldID world, const std::vector<ImpactBody>& bodies) {
         dMatrix3 upright;
         dRSetIdentity(upright);
         dBodySetRotation(body.id, upright);
+        if (!b.air.isZero(0)) {
+            const Vec3 force = b.mass * b.air;
+            dBodyAddForce(body.id, force.x(), force.y(), force.z());
+        }
         set_motion(body.id, b.position - origin, b.velocities.linear, b.velocities.spin);
     }
 }

@@ -12,8 +12,9 @@ constexpr double kRounding = 1e-14;
 
 }  // namespace
 
-void EnergyAccount::add(double mass, double inertia, double radius, const Vec3& place) {
-    bodies_.push_back({mass, inertia, radius, place});
+void EnergyAccount::add(double mass, double inertia, double radius, const Vec3& place,
+                        const Vec3& pull) {
+    bodies_.push_back({mass, inertia, radius, place, pull});
 }
 
 double EnergyAccount::kinetic(std::span<const Velocities> velocities) const {
@@ -28,13 +29,13 @@ double EnergyAccount::total(std::span<const Vec3> places,
                             std::span<const Velocities> velocities) const {
     double sum = kinetic(velocities);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        sum -= bodies_[i].mass * gravity_.dot(places[i] - bodies_[i].place);
+        sum -= bodies_[i].mass * bodies_[i].pull.dot(places[i] - bodies_[i].place);
     return sum;
 }
 
 double EnergyAccount::in_play(std::span<const Velocities> velocities) const {
     double sum = kinetic(velocities);
-    for (const Body& b : bodies_) sum += b.mass * gravity_.norm() * b.radius;
+    for (const Body& b : bodies_) sum += b.mass * b.pull.norm() * b.radius;
     return sum;
 }
 
@@ -42,7 +43,7 @@ double EnergyAccount::second_rate(std::span<const Vec3> accelerations,
                                   std::span<const Vec3> spin_rates) const {
     double sum = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-        sum += bodies_[i].mass * accelerations[i].dot(accelerations[i] - gravity_) +
+        sum += bodies_[i].mass * accelerations[i].dot(accelerations[i] - bodies_[i].pull) +
                bodies_[i].inertia * spin_rates[i].squaredNorm();
     return sum;
 }

@@ -10,10 +10,9 @@ namespace carom {
 
 class EnergyAccount {
   public:
-    explicit EnergyAccount(const Vec3& gravity) : gravity_(gravity) {}
-
-    /// A ball [kg, kg m^2, m] whose potential energy is 0 at `place` [m].
-    void add(double mass, double inertia, double radius, const Vec3& place);
+    /// A ball [kg, kg m^2, m] under a constant `pull` [m/s^2], whose potential energy is 0 at
+    /// `place` [m].
+    void add(double mass, double inertia, double radius, const Vec3& place, const Vec3& pull);
 
     /// Kinetic and potential energy, J; one place and one pair of velocities per ball.
     double total(std::span<const Vec3> places, std::span<const Velocities> velocities) const;
@@ -30,11 +29,10 @@ class EnergyAccount {
   private:
     struct Body {
         double mass, inertia, radius;
-        Vec3 place;
+        Vec3 place, pull;
     };
     double kinetic(std::span<const Velocities> velocities) const;
 
-    Vec3 gravity_;
     std::vector<Body> bodies_;
 };
 

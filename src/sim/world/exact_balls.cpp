@@ -20,6 +20,7 @@ ExactBalls::ExactBalls(const Scene& s) : scene(s), balls(s.balls.size()), log(s.
         piece.velocity = body.velocity;
         piece.acceleration = s.simulation.gravity;
         piece.spin = body.spin;
+        if (s.air) air_.emplace_back(*s.air, body);
     }
 }
 

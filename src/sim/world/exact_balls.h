@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 #include "sim/collide/time_of_impact.h"
 #include "sim/contact/contact.h"
+#include "sim/law/air_force.h"
 
 namespace carom {
 
@@ -71,6 +72,26 @@ class ExactBalls {
     const ExactBall& ball(int i) const { return balls[static_cast<std::size_t>(i)]; }
     const Ball& body(int i) const { return scene.balls[static_cast<std::size_t>(i)]; }
 
+    /// The weight of the air that a ball displaces over its own.
+    double buoyant_part(int i) const { return air_.empty() ? 0 : air(i).buoyant_part(); }
+    /// Gravity less buoyancy, m/s^2.
+    Vec3 pull(int i) const { return (1 - buoyant_part(i)) * scene.simulation.gravity; }
+    /// Whether there is air whose forces change with the ball's motion.
+    bool feels_air(int i) const { return !air_.empty() && air(i).acts(); }
+    bool spin_decays(int i) const { return !air_.empty() && air(i).spin_decay() > 0; }
+    /// Only where the scene has air.
+    const AirForce& air(int i) const { return air_[static_cast<std::size_t>(i)]; }
+    /// What air does to a ball that moves like this, buoyancy too, m/s^2.
+    Vec3 air_on(int i, const Velocities& moving) const {
+        return air_.empty() ? Vec3(Vec3::Zero())
+                            : Vec3(pull_on(i, moving) - scene.simulation.gravity);
+    }
+    /// pull() and what air does to a ball that moves like this, m/s^2.
+    Vec3 pull_on(int i, const Velocities& moving) const {
+        return air_.empty() ? scene.simulation.gravity
+                            : Vec3(pull(i) + air(i).acceleration(moving.linear, moving.spin));
+    }
+
     BallState state(int i, double t) const { return ball(i).piece.at(t); }
     /// The same without the orientation, which is what costs time.
     Vec3 position(int i, double t) const { return ball(i).piece.position_at(t); }
@@ -101,6 +122,7 @@ class ExactBalls {
     }
 
   private:
+    std::vector<AirForce> air_;  ///< per ball; empty where the scene has no air
     std::uint64_t next_stamp_ = 1;
 };
 

@@ -38,7 +38,7 @@ bool is_flat(const SingleContact& feature) { return roundness(feature) < 1.5; }
 
 SingleContact feature_at(const ExactWorld& world, const Contact& c, const Vec3& x, const Vec3& v) {
     return single_contact(world.surface(c.other.index).shape, x, v, world.ball(c.ball).radius,
-                          world.scene.simulation.gravity);
+                          world.pull(c.ball));
 }
 
 /// The least acceleration along the normal that keeps a centre out of a feature [m/s^2].
@@ -59,7 +59,7 @@ Vec3 along_surface(const Vec3& vector, const Vec3& normal) {
 /// is so long.
 Vec3 place_ahead(const ExactWorld& world, const Contact& c, const Vec3& x, const Vec3& v) {
     Vec3 way = v;
-    if (way.isZero(0)) way = along_surface(world.scene.simulation.gravity, c.normal);
+    if (way.isZero(0)) way = along_surface(world.pull(c.ball), c.normal);
     if (way.isZero(0)) return x;
     const double radius = world.ball(c.ball).radius;
     return x + 2 * std::sqrt(2 * radius * place_rounding(world, c, x)) * way.normalized();
