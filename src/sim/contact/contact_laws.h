@@ -30,6 +30,8 @@ struct ContactLaws {
         if (second != nullptr) e *= carom::restitution_at(*second, speed);
         return e;
     }
+    /// Whether slow impacts lose nothing by its law, so that bounces have no end.
+    bool is_endless() const { return by_speed() && !(restitution_at(0) < 1); }
     bool resists() const { return rolling > 0 || pivoting > 0; }
     bool is_plain() const { return !by_speed() && tangential_restitution == 0 && !resists(); }
 };

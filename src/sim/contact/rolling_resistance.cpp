@@ -7,6 +7,9 @@ namespace carom {
 
 namespace {
 
+/// A roll that is slower than this part of the rim's speed is what rounding left of none.
+constexpr double kStill = 1e-13;
+
 /// (1 + k) R: the lever of rolling resistance, which makes its deceleration rolling N/m.
 double lever_of(const ResistedBall& ball) {
     return ball.radius + ball.inertia / (ball.mass * ball.radius);
@@ -46,7 +49,9 @@ void resist(const Touch& contact, const StepImpulse& impulse, const ResistedBall
                           ? tangential_part(ball.velocities->linear, n)
                           : Vec3((ball.velocities->spin - other->velocities->spin).cross(n));
     const double speed = roll.norm();
-    if (!(laws.rolling > 0) || !(speed > 0)) return;
+    // Taking all of it leaves a part of 1e-16, step by step, until products of it are no doubles.
+    if (!(laws.rolling > 0) || !(speed > kStill * ball.radius * ball.velocities->spin.norm()))
+        return;
     const Vec3 along = roll / speed;
     const double grip = contact.friction * impulse.normal - std::abs(impulse.tangential.dot(along));
     const double rolling = std::min(laws.rolling * impulse.normal, grip);
