@@ -1,5 +1,6 @@
 // Random scenes and what their motions must keep, whatever the scene.
-//   random_scenes tracks|seams|scenes|shapes|air|transforms [--count N] [--seed S] [--failures DIR]
+//   random_scenes tracks|seams|scenes|shapes|laws|air|transforms [--count N] [--seed S]
+//                 [--failures DIR]
 //                 [--reduce TRIES] [-v]
 // Seeds are S, S + 1, ...; each scene runs in a child, so that a hang or a crash is counted. Prints
 // the failures by symptom, and the worst values of what held; --failures writes their scenes,
@@ -65,7 +66,8 @@ Options parse(int argc, char** argv) {
 Kind kind_named(const std::string& name) {
     for (Kind& kind : all_kinds())
         if (kind.name == name) return kind;
-    throw std::invalid_argument("needs one of tracks, seams, scenes, shapes, transforms");
+    throw std::invalid_argument(
+        "needs one of tracks, seams, scenes, shapes, laws, air, transforms");
 }
 
 /// What came of all trials.

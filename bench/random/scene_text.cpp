@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <optional>
+#include <variant>
 
 namespace carom::bench {
 
@@ -54,20 +56,52 @@ std::string shape_text(const PipeShape& pipe) {
                        text(pipe.from), text(pipe.to), pipe.radius, text(pipe.opening), degrees);
 }
 
+std::string law_text(const MonotoneCurve& curve) {
+    return fmt::format("speed: [{}], value: [{}]", fmt::join(curve.x(), ", "),
+                       fmt::join(curve.y(), ", "));
+}
+std::string law_text(const PowerRestitution& power) {
+    return fmt::format("power: {{value: {}, at_speed: {}, exponent: {}}}", power.value,
+                       power.at_speed, power.exponent);
+}
+std::string law_text(const ViscoelasticRestitution& law) {
+    return fmt::format("viscoelastic: {{gamma: {}}}", law.gamma);
+}
+
+/// What materials and pairs share, each entry after a comma.
+template <class Named>
+std::string contact_text(const Named& named) {
+    std::string all;
+    const auto add = [&all](const char* key, const std::optional<double>& value) {
+        if (value) all += fmt::format(", {}: {}", key, *value);
+    };
+    if (named.restitution_law)
+        all += fmt::format(
+            ", restitution: {{{}}}",
+            std::visit([](const auto& law) { return law_text(law); }, *named.restitution_law));
+    add("friction", named.friction);
+    add("rolling", named.rolling);
+    add("pivoting", named.pivoting);
+    add("tangential_restitution", named.tangential_restitution);
+    return all;
+}
+
 std::string materials_text(const Scene& scene) {
     std::string all;
     for (std::size_t i = 1; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
         const VirtualBody& body = m.virtual_body;
         all += fmt::format("  {}: {{", m.name);
-        if (std::isinf(body.distance_m))
+        if (m.restitution_law)
+            all += contact_text(m).substr(2);
+        else if (std::isinf(body.distance_m))
             all += "restitution: 0";
         else if (body.distance_m == 0)
             all += "restitution: 1";
         else
             all += fmt::format("virtual_body: {{distance: {}, velocity: {}}}", body.distance_m,
                                body.velocity_m_s);
-        if (m.friction) all += fmt::format(", friction: {}", *m.friction);
+        if (!m.restitution_law) all += contact_text(m);
         all += "}\n";
     }
     return all.empty() ? all : "materials:\n" + all;
@@ -79,8 +113,7 @@ std::string pairs_text(const Scene& scene) {
         all += fmt::format("  - {{between: [{}, {}]", scene.materials.at(pair.between[0]).name,
                            scene.materials.at(pair.between[1]).name);
         if (pair.restitution) all += fmt::format(", restitution: {}", *pair.restitution);
-        if (pair.friction) all += fmt::format(", friction: {}", *pair.friction);
-        all += "}\n";
+        all += contact_text(pair) + "}\n";
     }
     return all.empty() ? all : "pairs:\n" + all;
 }

@@ -12,6 +12,7 @@
 #include "motion_checks.h"
 #include "motion_difference.h"
 #include "random_air.h"
+#include "random_laws.h"
 #include "random_mixture.h"
 #include "random_tracks.h"
 #include "scene/reader.h"
@@ -188,12 +189,25 @@ std::vector<Kind> all_kinds() {
     const auto shapes = [](std::uint64_t seed) {
         return std::vector<Trial>{{seed, scene_text(random_mixture(seed, true, Bodies::kRimmed))}};
     };
+    const auto laws = [](std::uint64_t seed) {
+        Scene scene =
+            seed % 4 == 0
+                ? random_track(seed)
+                : random_mixture(seed, true, seed % 2 == 0 ? Bodies::kPlain : Bodies::kRimmed);
+        Draw draw(seed + 1'000'000'007);
+        add_contact_laws(scene, draw);
+        return std::vector<Trial>{{seed, scene_text(scene)}};
+    };
     const auto air = [](std::uint64_t seed) {
         return std::vector<Trial>{{seed, scene_text(random_air(seed))}};
     };
-    return {{"tracks", tracks, judge_one}, {"seams", seams, judge_seams},
-            {"scenes", scenes, judge_one}, {"shapes", shapes, judge_one},
-            {"air", air, judge_one},       {"transforms", make_transforms, judge_transform}};
+    return {{"tracks", tracks, judge_one},
+            {"seams", seams, judge_seams},
+            {"scenes", scenes, judge_one},
+            {"shapes", shapes, judge_one},
+            {"laws", laws, judge_one},
+            {"air", air, judge_one},
+            {"transforms", make_transforms, judge_transform}};
 }
 
 }  // namespace carom::bench

@@ -30,8 +30,18 @@ double MonotoneCurve::at(double x) const {
         static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
     const std::size_t i = next - 1;
     const double h = x_[next] - x_[i], u = (x - x_[i]) / h, v = 1 - u;
-    return v * v * ((1 + 2 * u) * y_[i] + h * u * slope_[i]) +
-           u * u * ((1 + 2 * v) * y_[next] - h * v * slope_[next]);
+    return y_[i] + u * u * (1 + 2 * v) * (y_[next] - y_[i]) +
+           h * u * v * (v * slope_[i] - u * slope_[next]);
+}
+
+double MonotoneCurve::slope_at(double x) const {
+    if (!(x > x_.front()) || !(x < x_.back())) return 0;
+    const auto next =
+        static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+    const std::size_t i = next - 1;
+    const double h = x_[next] - x_[i], u = (x - x_[i]) / h, v = 1 - u;
+    return 6 * u * v * (y_[next] - y_[i]) / h + v * (1 - 3 * u) * slope_[i] +
+           u * (1 - 3 * v) * slope_[next];
 }
 
 }  // namespace carom

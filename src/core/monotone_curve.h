@@ -16,6 +16,8 @@ class MonotoneCurve {
     MonotoneCurve(std::vector<double> x, std::vector<double> y);
 
     double at(double x) const;
+    /// dy/dx.
+    double slope_at(double x) const;
     const std::vector<double>& x() const { return x_; }
     const std::vector<double>& y() const { return y_; }
 

@@ -166,7 +166,7 @@ std::optional<Motion> closed_form_motion(const Scene& scene, const Motion& motio
         const Surface& met = scene.surfaces[static_cast<std::size_t>(*surface)];
         const PairProperties pair = pairs.at(ball.material, met.material);
         const Bounces bounces(scene, ball, std::get<PlaneShape>(met.shape), pair.restitution);
-        if (pair.friction > 0 || !bounces.fall()) return std::nullopt;
+        if (pair.friction > 0 || pair.laws != nullptr || !bounces.fall()) return std::nullopt;
         bounces.follow(static_cast<int>(i), *surface, result);
     }
     std::stable_sort(result.events.begin(), result.events.end(),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct Build {
     std::map<std::string, int> material_index{};
     std::map<std::string, int> look_index{};
     std::map<std::string, int> default_looks{};  ///< looks that carom made up, by what they are for
-    std::vector<const Node*> friction_nodes{};   ///< by material; null where the file names none
+    std::vector<const Node*> material_nodes{};   ///< by material; null where the file has none
     std::vector<BodyOrigin> ball_origins{};      ///< by ball
     std::vector<BodyOrigin> surface_origins{};   ///< by surface
 
@@ -51,10 +52,16 @@ void build_overlay(Build& build);
 void build_camera(Build& build);
 void build_test(Build& build);
 void build_against(Build& build);
-void check_names(Build& build);     // unique over balls and surfaces
-void check_overlaps(Build& build);  // at the start
-void check_flights(Build& build);   // what air asks of balls
-void warn_of_half_friction(Build& build);
+void check_names(Build& build);             // unique over balls and surfaces
+void check_overlaps(Build& build);          // at the start
+void check_flights(Build& build);           // what air asks of balls
+void check_restitution_laws(Build& build);  // of materials that may meet
+void warn_of_half_friction(Build& build);   // and of rolling resistance, the same
+void warn_without_friction(Build& build);   // of what has no effect then
+
+/// A coefficient over the approach speed, from a mapping that is valid. Reports points that are not
+/// in order, and separation speeds that fall; empty then.
+std::optional<RestitutionLaw> restitution_law_of(Build& build, const Fields& fields);
 
 /// The material that a reference names; the catalogue's are added when they are first asked for.
 /// Reports an unknown name and returns the default material.

@@ -176,7 +176,14 @@ void Comparison::value(const KeySpec& spec, const Side& a, const Side& b, const 
     const auto inner = [&](const Side& side) {
         return Side{side.root, child_of(side.map, spec.key), side.name};
     };
-    if ((spec.forms & form::kMap) != 0) return section(spec.child, inner(a), inner(b), path);
+    // What may be a plain value too is told as a whole, unless both are mappings.
+    const auto is_map = [&](const Side& side) {
+        const Node* node = inner(side).map;
+        return node != nullptr && node->kind == Node::Kind::kMap;
+    };
+    const bool only_map = spec.forms == form::kMap;
+    if ((spec.forms & form::kMap) != 0 && (only_map || (is_map(a) && is_map(b))))
+        return section(spec.child, inner(a), inner(b), path);
     if ((spec.forms & (form::kNamedMaps | form::kMaps)) != 0)
         return entries(spec, inner(a), inner(b), path);
     if (is_unread(spec, a) && is_unread(spec, b)) return;

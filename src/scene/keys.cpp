@@ -32,6 +32,7 @@ std::string Fallback::text() const {
 
 KeyTable::KeyTable() : rows_(setup_keys()), rules_(key_rules()), sections_(section_docs()) {
     for (KeySpec& row : overlay_keys()) rows_.push_back(std::move(row));
+    for (KeySpec& row : material_keys()) rows_.push_back(std::move(row));
     for (KeySpec& row : surface_keys()) rows_.push_back(std::move(row));
     for (KeySpec& row : shape_keys()) rows_.push_back(std::move(row));
     for (KeySpec& row : ball_keys()) rows_.push_back(std::move(row));

@@ -18,6 +18,9 @@ enum class Section {
     kAir,
     kMaterial,
     kVirtualBody,
+    kRestitution,
+    kPowerRestitution,
+    kViscoelasticRestitution,
     kPair,
     kLook,
     kSurface,
@@ -81,6 +84,7 @@ struct Range {
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool above_min = false;  ///< min itself is not allowed
+    bool below_max = false;  ///< nor max
     double multiple_of = 0;  ///< 0: any
 };
 constexpr Range at_least(double min) { return {.min = min}; }
@@ -175,6 +179,7 @@ class KeyTable {
 /// The rows themselves, by subject, in the files keys_*.cpp.
 std::vector<KeySpec> setup_keys();
 std::vector<KeySpec> overlay_keys();
+std::vector<KeySpec> material_keys();
 std::vector<KeySpec> surface_keys();
 std::vector<KeySpec> shape_keys();
 std::vector<KeySpec> ball_keys();

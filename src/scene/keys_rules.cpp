@@ -8,7 +8,11 @@ std::vector<Rule> key_rules() {
     return {
         {kMaterial, Rule::Kind::kAtMostOne, {"restitution", "virtual_body"}},
         {kVirtualBody, Rule::Kind::kAboveZeroWith, {"distance", "velocity"}},
-        {kPair, Rule::Kind::kAtLeastOne, {"restitution", "friction"}},
+        {kRestitution, Rule::Kind::kExactlyOne, {"speed", "power", "viscoelastic"}},
+        {kRestitution, Rule::Kind::kExactlyOne, {"value", "power", "viscoelastic"}},
+        {kPair,
+         Rule::Kind::kAtLeastOne,
+         {"restitution", "friction", "rolling", "pivoting", "tangential_restitution"}},
         {kSurface,
          Rule::Kind::kExactlyOne,
          {"plane", "box", "sphere", "capsule", "cylinder", "ring", "bowl", "pipe"}},
@@ -42,8 +46,19 @@ std::vector<SectionDoc> section_docs() {
         {kVirtualBody, "virtual_body", "materials.NAME.virtual_body",
          "The paper's virtual body; its coefficient against a rigid body is "
          "exp(-K distance / (2 velocity))."},
+        {kRestitution, "restitution", "materials.NAME.restitution",
+         "A coefficient that depends on the approach speed v: measured values, or a law. The "
+         "separation speed must not fall where v grows."},
+        {kPowerRestitution, "power_restitution", "materials.NAME.restitution.power",
+         "value (v / at_speed)^(-exponent), at most 1."},
+        {kViscoelasticRestitution, "viscoelastic_restitution",
+         "materials.NAME.restitution.viscoelastic",
+         "1 - gamma v^(1/5) + 3/5 gamma^2 v^(2/5), v in m/s; constant beyond its lowest point, "
+         "7/12."},
         {kPair, "pair", "pairs[]",
-         "Replaces the product of two materials' numbers by what is measured."},
+         "Replaces what two materials' numbers amount to by what is measured. `restitution` may be "
+         "a "
+         "mapping here too, as a material's."},
         {kLook, "look", "looks.NAME", "Colours and markings."},
         {kSurface, "surface", "surfaces[]", "A static body: one shape, a material, a look."},
         {kPlane, "plane", "surfaces[].plane",

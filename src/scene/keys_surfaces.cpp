@@ -1,12 +1,11 @@
-// The rows of the table that describe materials, looks and surfaces; keys_shapes.cpp has their
-// shapes.
+// The rows of the table that describe looks and surfaces; keys_shapes.cpp has their shapes,
+// keys_materials.cpp their materials.
 #include "scene/keys.h"
 
 namespace carom {
 
 namespace {
 
-constexpr Range kCoordinate = between(-1e9, 1e9);  ///< as in keys_setup.cpp
 constexpr Range kLength = above_up_to(0, 1e9);
 
 }  // namespace
@@ -15,68 +14,6 @@ std::vector<KeySpec> surface_keys() {
     using enum Section;
     using namespace form;
     return {
-        {.section = kMaterial,
-         .key = "restitution",
-         .forms = kNumber,
-         .range = between(0, 1),
-         .fallback_doc = "1",
-         .doc = "Coefficient against a rigid body: separation speed over approach speed.",
-         .example = "0.85"},
-        {.section = kMaterial,
-         .key = "virtual_body",
-         .forms = kMap,
-         .child = kVirtualBody,
-         .fallback_doc = "none",
-         .doc = "The paper's x and v instead of a coefficient.",
-         .example = "{distance: 0.42, velocity: 5.0}"},
-        {.section = kMaterial,
-         .key = "friction",
-         .forms = kNumber,
-         .range = between(0, 1e6),
-         .fallback_doc = "none, which counts as 0",
-         .doc = "Coulomb's coefficient against a reference of 1.",
-         .example = "0.6"},
-
-        {.section = kVirtualBody,
-         .key = "distance",
-         .forms = kNumber,
-         .range = between(0, 1e9),
-         .unit = "m",
-         .required = true,
-         .doc = "x: how far the virtual body's surface lies below the real one; 0 loses nothing.",
-         .example = "0.42"},
-        {.section = kVirtualBody,
-         .key = "velocity",
-         .forms = kNumber,
-         .range = kCoordinate,
-         .unit = "m/s",
-         .required = true,
-         .doc = "v: the speed of that surface; above 0 where `distance` is.",
-         .example = "5.0"},
-
-        {.section = kPair,
-         .key = "between",
-         .forms = kReferences,
-         .count = 2,
-         .refers_to = NameKind::kMaterial,
-         .required = true,
-         .doc = "The two materials; they may be the same.",
-         .example = "[rubber, steel]"},
-        {.section = kPair,
-         .key = "restitution",
-         .forms = kNumber,
-         .range = between(0, 1),
-         .fallback_doc = "the product",
-         .doc = "Coefficient of the pair.",
-         .example = "0.8"},
-        {.section = kPair,
-         .key = "friction",
-         .forms = kNumber,
-         .range = between(0, 1e6),
-         .fallback_doc = "the product",
-         .doc = "Coulomb's coefficient of the pair.",
-         .example = "0.5"},
-
         {.section = kLook,
          .key = "style",
          .forms = kWord,

@@ -51,7 +51,9 @@ void build_scene(Build& build) {
     check_names(build);
     check_overlaps(build);
     check_flights(build);
+    check_restitution_laws(build);
     warn_of_half_friction(build);
+    warn_without_friction(build);
 }
 
 /// A key or a number with a no-break space in it looks right on the screen.

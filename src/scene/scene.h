@@ -14,6 +14,7 @@
 #include "core/types.h"
 #include "geometry/shape.h"
 #include "scene/air.h"
+#include "scene/restitution_law.h"
 
 namespace carom {
 
@@ -29,6 +30,11 @@ struct Material {
     std::string name;                ///< "" is the default material, always at index 0
     VirtualBody virtual_body;        ///< `restitution: e` is stored as x/v = -2 ln e / K, v = 1
     std::optional<double> friction;  ///< Coulomb's mu against a reference of 1; none if not named
+    /// The coefficient over the approach speed; the virtual body then loses nothing.
+    std::optional<RestitutionLaw> restitution_law{};
+    std::optional<double> rolling{};   ///< deceleration over N/m, against a reference of 1
+    std::optional<double> pivoting{};  ///< moment against spin about the normal over N, m
+    std::optional<double> tangential_restitution{};  ///< -1 ... 1
     SourceMark mark;
 };
 
@@ -38,6 +44,11 @@ struct PairRule {
     std::optional<double> restitution;
     std::optional<double> friction;
     SourceMark mark;
+    // As in Material.
+    std::optional<RestitutionLaw> restitution_law{};
+    std::optional<double> rolling{};
+    std::optional<double> pivoting{};
+    std::optional<double> tangential_restitution{};
 };
 
 /// Linear pictures have linear colours; the scene has sRGB ones, each channel 0 ... 1.

@@ -55,7 +55,8 @@ Json number_schema(const KeySpec& spec, const char* type) {
     const Range& range = spec.range;
     if (std::isfinite(range.min))
         schema[range.above_min ? "exclusiveMinimum" : "minimum"] = number_json(range.min);
-    if (std::isfinite(range.max)) schema["maximum"] = number_json(range.max);
+    if (std::isfinite(range.max))
+        schema[range.below_max ? "exclusiveMaximum" : "maximum"] = number_json(range.max);
     if (range.multiple_of != 0) schema["multipleOf"] = number_json(range.multiple_of);
     return schema;
 }

@@ -55,6 +55,7 @@ std::string found_text(const Node& node) {
 bool in_range(double value, const Range& range) {
     if (value > range.max || value < range.min) return false;
     if (range.above_min && value == range.min) return false;
+    if (range.below_max && value == range.max) return false;
     return range.multiple_of == 0 || std::fmod(value, range.multiple_of) == 0;
 }
 
@@ -312,6 +313,9 @@ std::string range_text(const Range& range) {
     const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
     std::string text;
     if (low && range.min == range.max) return number_text(range.min);
+    if (low && high && range.below_max)
+        return fmt::format("{} {} and below {}", range.above_min ? "above" : "at least",
+                           number_text(range.min), number_text(range.max));
     if (low && high && !range.above_min)
         text = fmt::format("between {} and {}", number_text(range.min), number_text(range.max));
     else if (low && high)

@@ -77,6 +77,17 @@ TEST(SceneDifferences, StepsAreThoseOfTheMethodThatHasThem) {
     EXPECT_EQ(Texts{}, found(kScene, kScene, {{"simulation.step", "0.02"}}));
 }
 
+TEST(SceneDifferences, ANumberAgainstALaw) {
+    const auto scene = [](const std::string& restitution) {
+        return "carom: 1\nmaterials: {r: {restitution: " + restitution + "}}\n";
+    };
+    const std::string law = "{viscoelastic: {gamma: 0.1}}";
+    EXPECT_EQ(Texts{"materials.r.restitution: 0.5 | {viscoelastic: {gamma: 0.1}}"},
+              found(scene("0.5"), scene(law)));
+    EXPECT_EQ(Texts{"materials.r.restitution.viscoelastic.gamma: 0.1 | 0.2"},
+              found(scene(law), scene("{viscoelastic: {gamma: 0.2}}")));
+}
+
 // What a preset or a virtual body implies is said in numbers.
 TEST(SceneDifferences, PresetsAndVirtualBodies) {
     const std::string ball =

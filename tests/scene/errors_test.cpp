@@ -101,7 +101,8 @@ TEST(Errors, MaterialsPairsAndLooks) {
         {"materials: {aa: {}, bb: {}}\npairs: [{between: [aa, bc], friction: 1}]",
          "3:24: error: there is no material 'bc'; did you mean 'bb'?"},
         {"materials: {aa: {}, bb: {}}\npairs: [{between: [aa, bb]}]",
-         "3:9: error: at least one of 'restitution', 'friction' must stand here"},
+         "3:9: error: at least one of 'restitution', 'friction', 'rolling', 'pivoting', "
+         "'tangential_restitution' must stand here"},
         {"materials: {aa: {}, bb: {}}\npairs:\n  - {between: [aa, bb], friction: 1}\n  - {between: "
          "[bb, aa], friction: 2}",
          "5:15: error: the pair of 'bb' and 'aa' stands twice"},

@@ -44,7 +44,8 @@ TEST(Restitution, OfAPairIsTheProduct) {
 
 TEST(PairTable, MultipliesAndOverrides) {
     Scene scene = scene_of(0.8, 0.5, kGravity, 1e-3);
-    scene.materials.push_back({"ice", virtual_body(0.5), 0.1, {}});
+    scene.materials.push_back(
+        {.name = "ice", .virtual_body = virtual_body(0.5), .friction = 0.1, .mark = {}});
     scene.pairs.push_back({{3, 1}, 0.25, std::nullopt, {}});
     scene.pairs.push_back({{2, 3}, std::nullopt, 0.7, {}});
     const PairTable pairs(scene);

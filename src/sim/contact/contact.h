@@ -6,6 +6,8 @@
 
 namespace carom {
 
+struct ContactLaws;  // contact_laws.h
+
 /// How a ball touches another ball or a surface. World frame, SI units.
 struct Touch {
     // From collision detection.
@@ -14,8 +16,10 @@ struct Touch {
     Vec3 arm = Vec3::Zero();  ///< from the centre of the ball to where forces act, m
     Vec3 arm_other = Vec3::Zero();  ///< from the centre of the other ball; zero for a surface
     Vec3 point = Vec3::Zero();      ///< on the surface that is met; between two balls, the middle
+    /// Where it depends on the approach speed: its limit for slow ones, until the impact is solved.
     double restitution = 1;
     double friction = 0;
+    const ContactLaws* laws = nullptr;  ///< of the pair; null for none but these two numbers
 
     // From the velocities before the step.
     double approach_speed = 0;  ///< along the normal, m/s; negative when they separate

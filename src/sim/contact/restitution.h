@@ -9,9 +9,11 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "scene/scene.h"
+#include "sim/contact/contact_laws.h"
 
 namespace carom {
 
@@ -28,15 +30,21 @@ double restitution_of_time(double time, double constant);
 
 /// What a contact of two materials does.
 struct PairProperties {
-    double restitution = 1;  ///< Newton's, 0 ... 1
+    double restitution = 1;  ///< Newton's, 0 ... 1; of slow impacts where it depends on the speed
     double friction = 0;     ///< Coulomb's mu, 0: no friction is modelled
+    /// What else there is; null for nothing. Lives as long as the table and the scene.
+    const ContactLaws* laws = nullptr;
 };
 
 /// The pair rules of a scene: restitution eps_A eps_B (Eq. 6 and 7 say this product), friction
-/// mu_A mu_B, and `pairs`, which override either. A material without friction counts as mu = 0.
+/// mu_A mu_B, rolling resistance likewise, pivoting the sum, tangential restitution the product of
+/// those that are named; and `pairs`, which override each. What a material does not name counts as
+/// 0. The scene must outlive the table. One table serves one run: asking may note a pair's laws.
 class PairTable {
   public:
     explicit PairTable(const Scene& scene);
+    PairTable(const PairTable&) = delete;
+    PairTable& operator=(const PairTable&) = delete;
 
     /// Of two materials, by their indices in the scene; the order does not matter.
     PairProperties at(int material_a, int material_b) const;
@@ -48,19 +56,24 @@ class PairTable {
     /// Whether two things of the scene that can meet (ball and surface, ball and ball) have
     /// friction.
     bool any_friction() const { return any_friction_; }
+    /// Whether two things that can meet have laws for which `has` holds.
+    bool any(bool (*has)(const ContactLaws&)) const;
 
   private:
-    struct Override {
-        std::optional<double> restitution;
-        std::optional<double> friction;
-    };
-    bool scene_has_friction(const Scene& scene) const;
+    bool may_meet(int material_a, int material_b) const;
+    bool find_friction() const;
+    double product(std::optional<double> Material::*factor, int a, int b) const;
+    const ContactLaws* laws_of(int a, int b, const PairProperties& pair,
+                               const PairRule* rule) const;
 
     double constant_;
-    std::vector<VirtualBody> bodies_;
-    std::vector<double> friction_;
-    std::map<std::array<int, 2>, Override> overrides_;  ///< lower index first
+    const std::vector<Material>& materials_;
+    std::map<std::array<int, 2>, PairRule> overrides_;  ///< lower index first
+    std::map<int, int> balls_of_;                       ///< by material, how many
+    std::set<int> of_surfaces_;
+    bool any_laws_ = false;  ///< a material or a rule names what makes some
     bool any_friction_;
+    mutable std::map<std::array<int, 2>, ContactLaws> laws_;  ///< as far as asked for
 };
 
 }  // namespace carom

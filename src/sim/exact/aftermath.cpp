@@ -46,12 +46,13 @@ void Aftermath::settle(const ImpactCluster& cluster, double first_approach,
 }
 
 /// The separation speed whose friction a contact gives back (without_bounces()): that of its own
-/// impact, as far as that one had friction. What another impact has lifted has none.
+/// impact, as far as that one had friction. What another impact has lifted has none; a slip that
+/// has sprung back is not the one that friction was against.
 double Aftermath::bounce_of(const Contact& c, const std::vector<Contact>& impacts) const {
     const auto hit = std::find_if(impacts.begin(), impacts.end(), [&c](const Contact& impact) {
         return impact.ball == c.ball && impact.other == c.other;
     });
-    if (hit == impacts.end() || c.friction == 0) return 0;
+    if (hit == impacts.end() || c.friction == 0 || tangential_restitution(c) != 0) return 0;
     return std::min(c.separation_speed,
                     hit->tangential_impulse / (c.friction * world_.ball(c.ball).mass));
 }

@@ -262,7 +262,8 @@ void Predictor::keep_if_earlier(Outlook& out, const TimeOfImpact& toi, const Loo
     if (look.touching && toi.s > 0) {
         // On a flat surface; what a curved one falls away by, the middle of the way tells.
         const double hop = 0.25 * toi.s * look.separation;
-        const double limit = rules_.hop_limit(ball, world_.position(ball, from));
+        const double limit =
+            rules_.hop_limit(ball, world_.position(ball, from), world_.laws_between(ball, partner));
         const double rise =
             gap_at(ball, partner, from + 0.5 * toi.s) - std::max(gap_at(ball, partner, from), 0.0);
         if (hop < limit && rise < limit) {

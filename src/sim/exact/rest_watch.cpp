@@ -9,8 +9,8 @@ namespace carom {
 
 bool RestWatch::at_rest(int ball) const {
     const ExactBall& b = world_.ball(ball);
-    return is_asleep(b.phase()) ||
-           (b.surface >= 0 && b.kind == EventKind::kRest && std::isinf(b.event_due));
+    return is_asleep(b.phase()) || (b.surface >= 0 && b.kind == EventKind::kRest &&
+                                    std::isinf(b.event_due) && b.piece.spin_rate.isZero(0));
 }
 
 bool RestWatch::all_at_rest() {
@@ -35,6 +35,7 @@ std::string RestWatch::doing(int ball) const {
     if (b.surface >= 0) {
         const Partner surface{true, b.surface};
         if (!std::isinf(b.event_due)) return on("bounces", surface);
+        if (b.kind == EventKind::kRest) return on("spins", surface);
         return on(b.kind == EventKind::kRoll ? "rolls" : "slides", surface);
     }
     if (b.phase() != Phase::kIsland) return "flies";

@@ -51,6 +51,7 @@ void near_callback(void* data, dGeomID first, dGeomID second) {
         finder.pairs.at(ball->material, ball->virtual_body, other->material, other->virtual_body);
     contact.restitution = pair.restitution;
     contact.friction = pair.friction;
+    contact.laws = pair.laws;
     finder.found.push_back(contact);
 }
 

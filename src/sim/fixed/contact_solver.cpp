@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/contact/contact_laws.h"
 #include "sim/solve/contact_joint.h"
 
 namespace carom {
@@ -85,6 +86,7 @@ void ContactSolver::prepare(Contact& contact, const std::vector<Velocities>& bef
     contact.slip = tangential_part(relative, contact.normal);
     const double rounding = kSpeedRounding * (ball.linear.norm() + other.linear.norm());
     contact.impact = contact.approach_speed > rules_.impact_threshold + rounding;
+    if (contact.impact) find_restitution(contact);
 }
 
 /// Along the normal, after a step in which the contact does nothing. Two balls fall alike: gravity
@@ -112,10 +114,14 @@ dContact ContactSolver::joint_of(const Contact& contact) const {
     if (contact.other.is_surface)
         free_slip += rules_.step * tangential_part(rules_.gravity, contact.normal);
     dContact joint = contact_joint(contact, world_.position(contact.ball), free_slip);
-    if (contact.impact)
+    if (contact.impact) {
         let_bounce(joint, contact.restitution);
-    else
+        // With others at hand it could give energy.
+        if (const double b = tangential_restitution(contact); b != 0 && contact.alone)
+            reverse_slip(joint, b, contact.slip);
+    } else {
         keep_above(joint, target_speed(contact));
+    }
     if (!contact.alone) share_island(joint);
     return joint;
 }

@@ -251,6 +251,7 @@ SimulationResult FixedRun::finish(double duration) {
     result.report.steps = steps_;
     result.report.impacts = log_.impacts();
     result.report.effects = effects_of(scene_, pairs_);
+    leave_out_resistance(result.report);
     result.report.effects[kTunnelling] = tunnelling();
     return result;
 }

@@ -64,7 +64,10 @@ void ImpactCascade::choose(double slowest) {
 
 void ImpactCascade::solve(bool inelastic, double enough, std::vector<Contact>& impacts) {
     if (inelastic)
-        for (SolverContact& c : solver_contacts_) c.restitution = 0;
+        for (SolverContact& c : solver_contacts_) {
+            c.restitution = 0;
+            c.laws = nullptr;
+        }
     solver_.solve(solver_bodies_, solver_contacts_, cluster_.time());
     for (std::size_t k = 0; k < here_.size(); ++k)
         cluster_.bodies()[here_[k]].velocities = solver_bodies_[k].velocities;

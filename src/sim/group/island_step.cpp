@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "geometry/nearest.h"
+#include "sim/contact/rolling_resistance.h"
 
 namespace carom {
 
@@ -191,6 +192,7 @@ void IslandStep::solve(IslandSolver& solver) {
         std::vector<ImpactBody> moving = bodies(0.5 * seconds_);
         local = local_contacts(0.5 * seconds_);
         solver.step(moving, local, pushes_, world_.scene.simulation.gravity, seconds_);
+        resist_rolling(moving, local);
         for (std::size_t i = 0; i < balls_.size(); ++i) after_[i] = moving[i].velocities;
         keep_energy_at_end();
         set_rates();
@@ -202,6 +204,24 @@ void IslandStep::solve(IslandSolver& solver) {
     }
     for (std::size_t i = 0; i < contacts_.size(); ++i)
         contacts_[i] = {local[i], contacts_[i].ball, contacts_[i].other};
+}
+
+/// What rolling resistance and pivoting take from the velocities that the step has led to.
+void IslandStep::resist_rolling(std::vector<ImpactBody>& moving,
+                                const std::vector<SolverContact>& local) const {
+    const auto resisted = [&](int body) {
+        ImpactBody& b = moving[static_cast<std::size_t>(body)];
+        return ResistedBall{&b.velocities,
+                            world_.ball(balls_[static_cast<std::size_t>(body)]).radius, b.mass,
+                            b.inertia};
+    };
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        const SolverContact& c = local[i];
+        if (!is_resisted(c)) continue;
+        const ResistedBall other = c.on_surface() ? ResistedBall{} : resisted(c.other_body);
+        resist(c, {c.impulse, tangential_part(pushes_[i], c.normal)}, resisted(c.body),
+               c.on_surface() ? nullptr : &other);
+    }
 }
 
 void IslandStep::set_rates() {
@@ -245,8 +265,13 @@ bool IslandStep::is_calm(double speed) const {
         const double turned = (after_[i].spin - results_[i].start.spin).norm();
         if (world_.ball(balls_[i]).radius * turned > speed) return false;
     }
-    return std::all_of(contacts_.begin(), contacts_.end(), [speed](const Contact& c) {
-        return c.friction == 0 || c.slip_after.norm() <= speed;
+    return std::all_of(contacts_.begin(), contacts_.end(), [&](const Contact& c) {
+        if (c.friction > 0 && c.slip_after.norm() > speed) return false;
+        if (c.laws == nullptr || !(c.laws->pivoting > 0)) return true;
+        // However slowly pivoting ends it.
+        Vec3 spin = after_[index_of(c.ball)].spin;
+        if (!c.other.is_surface) spin -= after_[index_of(c.other.index)].spin;
+        return world_.ball(c.ball).radius * std::abs(spin.dot(c.normal)) <= speed;
     });
 }
 

@@ -65,6 +65,8 @@ class IslandStep {
     std::vector<SolverContact> local_contacts(double ahead) const;
     void stop_approaches(IslandSolver& solver);
     void set_start(const std::vector<Velocities>& velocities);
+    void resist_rolling(std::vector<ImpactBody>& moving,
+                        const std::vector<SolverContact>& local) const;
     void set_rates();
     std::vector<Vec3> start_places() const;
     std::vector<Velocities> start_velocities() const;

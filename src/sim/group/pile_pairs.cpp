@@ -32,6 +32,7 @@ PilePair PilePairs::pair_of(int ball, const Partner& partner, double now, const 
     const PairProperties both = world_.pair(held.material, material);
     pair.restitution = both.restitution;
     pair.friction = both.friction;
+    pair.laws = both.laws;
     if (const Link* link = links.find(ball, partner)) {
         pair.kind.take_over(link->kind.stated());
         if (link->kind.from_start()) pair.kind.begins_at_start();

@@ -15,6 +15,7 @@ struct PilePair {
     int ball = -1;  ///< of two balls the scene's first one
     Partner other;
     double restitution = 1, friction = 0;
+    const ContactLaws* laws = nullptr;  ///< as in Touch
     // Of this step.
     Vec3 normal = Vec3::UnitZ();  ///< unit, towards `ball`
     double gap = 0;               ///< m

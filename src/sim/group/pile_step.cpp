@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/nearest.h"
+#include "sim/contact/rolling_resistance.h"
 
 namespace carom {
 
@@ -83,6 +84,10 @@ double PileStep::solve(double now, double seconds) {
     solve_forces();
     const double lost = before + fall_energy() - kinetic_energy();
     part_overlaps(kOverlapBudget * lost);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const PilePair& pair = pairs_.all()[active_[k]];
+        if (pair.laws != nullptr && pair.laws->resists()) resist_rolling(pair, rows_[k]);
+    }
     note_contacts();
     return seconds_;
 }
@@ -174,6 +179,8 @@ void PileStep::solve_impacts() {
         PileRow& row = rows_[k];
         const double closing = -normal_speed(row, balls_.bodies());
         pair.bounces = closing > slow_speed() && closing * seconds_ > pair.gap;
+        if (pair.bounces && pair.laws != nullptr && pair.laws->by_speed())
+            pair.restitution = pair.laws->restitution_at(closing);
         row.target =
             pair.bounces ? pair.restitution * closing : -std::max(pair.gap, 0.0) / seconds_;
         any |= closing > kNudge * slow_speed() && closing * seconds_ > pair.gap;
@@ -240,6 +247,37 @@ void PileStep::solve_forces() {
         pair.slip =
             row.friction > 0 ? (relative - relative.dot(row.normal) * row.normal).norm() : 0;
     }
+}
+
+/// What rolling resistance and pivoting take from the velocities that the step has led to.
+void PileStep::resist_rolling(const PilePair& pair, const PileRow& row) {
+    struct Resisted {
+        Velocities velocities;
+        ResistedBall ball;
+    };
+    const auto begin = [this](int i, Resisted& resisted) {
+        const PileBody& b = balls_.body(i);
+        const double radius = world_.ball(i).radius;
+        resisted.velocities = {b.velocity, b.rim / radius};
+        resisted.ball = {&resisted.velocities, radius, 1 / b.inverse_mass,
+                         radius * radius / b.inverse_spin};
+    };
+    const auto end = [this](int i, const Resisted& resisted) {
+        balls_.body(i).velocity = resisted.velocities.linear;
+        balls_.body(i).rim = world_.ball(i).radius * resisted.velocities.spin;
+    };
+    // A sleeping partner does not move.
+    if (!balls_.is_awake(pair.ball) || (row.other >= 0 && !balls_.is_awake(row.other))) return;
+    Resisted ball, other;
+    begin(pair.ball, ball);
+    if (row.other >= 0) begin(row.other, other);
+    Touch contact;
+    contact.normal = row.normal;
+    contact.friction = row.friction;
+    contact.laws = pair.laws;
+    resist(contact, {row.push, row.tangential}, ball.ball, row.other >= 0 ? &other.ball : nullptr);
+    end(pair.ball, ball);
+    if (row.other >= 0) end(row.other, other);
 }
 
 // ---- Overlaps

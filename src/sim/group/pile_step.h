@@ -41,6 +41,7 @@ class PileStep {
     void solve_impacts();
     void shorten(double now);
     void solve_forces();
+    void resist_rolling(const PilePair& pair, const PileRow& row);
     void note_contacts();
     double kinetic_energy() const;
     double fall_energy() const;

@@ -20,6 +20,10 @@ constexpr double kSmallSlip = 1e-7;
 /// m/s meanwhile. Under large friction a slip that turns is stiff towards its end.
 constexpr double kSudden = 1e-9;
 
+bool is_resisted_roll(const SingleContact& c, ContactMode mode) {
+    return c.rolling > 0 && mode == ContactMode::kRolling;
+}
+
 /// The law of one ball on one feature.
 class SingleLaw {
   public:
@@ -38,7 +42,15 @@ class SingleLaw {
           mode_(mode),
           settled_(settled),
           speed_(start.v.norm() + contact.radius * start.w.norm() +
-                 std::sqrt(contact.gravity.norm() * contact.radius)) {}
+                 std::sqrt(contact.gravity.norm() * contact.radius)) {
+        const auto watch = [this](SingleEnd end) { own_[own_count_++] = end; };
+        if (mode == ContactMode::kRolling) watch(SingleEnd::kGripEnds);
+        if (mode == ContactMode::kIncipient) watch(SingleEnd::kSlipGrows);
+        if (mode == ContactMode::kIncipient) watch(SingleEnd::kSlipEnds);
+        if (is_resisted_roll(contact, mode) && contact.roll_begins) watch(SingleEnd::kRollGrows);
+        if (contact.pivoting > 0)
+            watch(contact.pivots == 0 ? SingleEnd::kPivotSlips : SingleEnd::kPivotEnds);
+    }
 
     std::size_t ball_count() const { return 1; }
     double size() const { return contact_.radius; }
@@ -56,17 +68,11 @@ class SingleLaw {
                energy_in_play(b[0], radius, k, contact_.gravity);
     }
 
-    int guard_count() const {
-        const int own = mode_ == ContactMode::kRolling     ? 1
-                        : mode_ == ContactMode::kIncipient ? 2
-                                                           : 0;
-        return 1 + contact_.border_count + own;
-    }
+    int guard_count() const { return 1 + contact_.border_count + static_cast<int>(own_count_); }
     SingleEnd end(int i) const {
         if (i == 0) return SingleEnd::kLiftOff;
         if (i <= contact_.border_count) return SingleEnd::kFeature;
-        if (mode_ == ContactMode::kRolling) return SingleEnd::kGripEnds;
-        return i == contact_.border_count + 1 ? SingleEnd::kSlipGrows : SingleEnd::kSlipEnds;
+        return own_[static_cast<std::size_t>(i - contact_.border_count - 1)];
     }
     double guard(int i, const State& s, const SingleContactForces& f) const {
         switch (end(i)) {
@@ -78,17 +84,27 @@ class SingleLaw {
                 return grip_left(contact_, f);
             case SingleEnd::kSlipGrows:
                 return kSmallSlip * speed_ - f.slip.norm();
+            case SingleEnd::kRollGrows:
+                return kSmallSlip * speed_ - s[0].v.norm();
+            case SingleEnd::kPivotEnds:
+                return contact_.pivots * s[0].w.dot(f.normal);
+            case SingleEnd::kPivotSlips:
+                return pivot_hold_left(contact_, f, s[0]);
             default:
                 return f.slip.dot(f.drive);  // the slip goes back to 0
         }
     }
-    bool skip_start(int i) const { return settled_ || end(i) == SingleEnd::kSlipEnds; }
+    bool skip_start(int i) const {
+        return settled_ || end(i) == SingleEnd::kSlipEnds || end(i) == SingleEnd::kPivotEnds;
+    }
 
   private:
     const SingleContact& contact_;
     ContactMode mode_;
     bool settled_;
     double speed_;
+    std::array<SingleEnd, 4> own_{};  ///< what ends the mode, and what resistance does
+    std::size_t own_count_ = 0;
 };
 
 /// How fast friction and what drives it change the slip, along it [m/s^2].
@@ -103,6 +119,11 @@ double longest_piece(const SingleContact& c, ContactMode mode, const ContactStat
     if (const double turning = f.normal_rate.norm(); turning > 0)
         h = std::min(h, kLongestTurn / turning);
     h = std::min(h, longest_turn(s.w, f.spin_rate));
+    if (is_resisted_roll(c, mode) && !c.roll_begins) {
+        // As a slip: at its end the direction of the roll turns ever faster.
+        const double speed = s.v.norm(), slows = -s.v.dot(f.acceleration) / speed;
+        if (slows > 0) h = std::min(h, kSlipPart * speed / slows);
+    }
     if (mode != ContactMode::kSliding) return h;
     const double slip = f.slip.norm(), slows = slowing(c, f) / slip;
     return slows > 0 ? std::min(h, kSlipPart * slip / slows) : h;
@@ -140,6 +161,11 @@ SinglePiece next_piece(const SingleContact& contact, ContactMode mode, const Con
     if (mode == ContactMode::kSliding && forces.slip.norm() <= kNoSlip * law.speed() &&
         slowing(contact, forces) >= 0) {
         result.end = SingleEnd::kSlipEnds;
+        return result;
+    }
+    if (is_resisted_roll(contact, mode) && !contact.roll_begins &&
+        state.v.norm() <= kNoSlip * law.speed()) {
+        result.end = SingleEnd::kRollEnds;
         return result;
     }
     const double longest = longest_piece(contact, mode, state, forces);

@@ -9,13 +9,17 @@ namespace carom {
 
 /// Why a piece ends.
 enum class SingleEnd {
-    kNone,       ///< it is long enough; the same laws go on
-    kLiftOff,    ///< the normal force has reached 0 (see lift_off_threshold())
-    kFeature,    ///< another feature of the surface is met
-    kSlipEnds,   ///< no slip is left
-    kSlipGrows,  ///< an incipient slip now has its own direction
-    kGripEnds,   ///< friction cannot hold the rolling any more
-    kGivenUp     ///< the integrator makes no progress from here
+    kNone,        ///< it is long enough; the same laws go on
+    kLiftOff,     ///< the normal force has reached 0 (see lift_off_threshold())
+    kFeature,     ///< another feature of the surface is met
+    kSlipEnds,    ///< no slip is left
+    kSlipGrows,   ///< an incipient slip now has its own direction
+    kGripEnds,    ///< friction cannot hold the rolling any more
+    kRollEnds,    ///< rolling resistance has stopped it
+    kRollGrows,   ///< a roll that has begun now has its own direction
+    kPivotEnds,   ///< no spin about the normal is left
+    kPivotSlips,  ///< the turning normal gives it one again
+    kGivenUp      ///< the integrator makes no progress from here
 };
 
 struct SinglePiece {

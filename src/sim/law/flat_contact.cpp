@@ -11,10 +11,43 @@ namespace {
 /// a few roundings.
 constexpr double kParallel = 1e-14;
 
-}  // namespace
+/// A roll that slows, or a ball that stands still: `motion` has its velocities.
+std::optional<FlatMotion> resisted_roll(const FlatContact& contact, const Vec3& g_t,
+                                        FlatMotion motion, double still) {
+    const Vec3& n = contact.normal;
+    const double R = contact.radius, k = contact.inertia_factor;
+    const double g_n = -contact.gravity.dot(n);
+    const double speed = motion.velocities.linear.norm();
+    const bool moves = speed > still;
+    // The direction of the roll: that of the motion, or in which gravity would set it going.
+    Vec3 along = Vec3::Zero();
+    if (moves) {
+        along = motion.velocities.linear / speed;
+    } else {
+        motion.velocities.linear.setZero();
+        motion.velocities.spin = motion.velocities.spin.dot(n) * n;
+        if (!g_t.isZero(0)) along = g_t.normalized();
+    }
+    const double pull = g_t.dot(along);
+    if ((g_t - pull * along).norm() > kParallel * (g_t.norm() + contact.friction * g_n))
+        return std::nullopt;
+    const double most = contact.friction * g_n - k / (1 + k) * pull;  // what friction leaves
+    const double resistance = std::min(contact.rolling * g_n, most);
+    const double rate = pull / (1 + k) - resistance;
+    if (!moves && rate <= 0) {
+        motion.kind = EventKind::kRest;
+        return motion;
+    }
+    motion.kind = EventKind::kRoll;
+    motion.acceleration = rate * along;
+    motion.spin_rate = n.cross(motion.acceleration) / R;
+    if (rate < 0) motion.seconds = speed / -rate;
+    return motion;
+}
 
-std::optional<FlatMotion> flat_motion(const FlatContact& contact, const Velocities& now,
-                                      double slip_tolerance) {
+/// Motion along the surface; spin about the normal goes on as it is.
+std::optional<FlatMotion> motion_along(const FlatContact& contact, const Velocities& now,
+                                       double slip_tolerance) {
     const Vec3& n = contact.normal;
     const double g_n = -contact.gravity.dot(n);
     Vec3 g_t = contact.gravity + g_n * n;
@@ -56,9 +89,36 @@ std::optional<FlatMotion> flat_motion(const FlatContact& contact, const Velociti
         slide_along(g_t.normalized());
         return motion;
     }
+    if (contact.rolling > 0) return resisted_roll(contact, g_t, motion, slip_tolerance);
     motion.acceleration = g_t / (1 + k);
     motion.spin_rate = n.cross(motion.acceleration) / R;
     motion.kind = v.isZero(0) && g_t.isZero(0) ? EventKind::kRest : EventKind::kRoll;
+    return motion;
+}
+
+/// What pivoting does to the spin about the normal, until that ends.
+void slow_pivot(const FlatContact& contact, FlatMotion& motion, double slip_tolerance) {
+    const Vec3& n = contact.normal;
+    const double R = contact.radius;
+    const double g_n = -contact.gravity.dot(n);
+    const double spin = motion.velocities.spin.dot(n);
+    const double rate = contact.pivoting * g_n / (contact.inertia_factor * R * R);
+    // Rounding of the time leaves so much more of it as the rim slows faster than gravity pulls.
+    const double faster = contact.pivoting / (contact.inertia_factor * R);
+    if (R * std::abs(spin) <= slip_tolerance * (1 + faster)) {
+        motion.velocities.spin -= spin * n;
+        return;
+    }
+    motion.spin_rate -= std::copysign(rate, spin) * n;
+    motion.seconds = std::min(motion.seconds, std::abs(spin) / rate);
+}
+
+}  // namespace
+
+std::optional<FlatMotion> flat_motion(const FlatContact& contact, const Velocities& now,
+                                      double slip_tolerance) {
+    std::optional<FlatMotion> motion = motion_along(contact, now, slip_tolerance);
+    if (motion && contact.pivoting > 0) slow_pivot(contact, *motion, slip_tolerance);
     return motion;
 }
 

@@ -23,6 +23,10 @@ struct SingleContact : Feature {
     double friction = 0;            ///< Coulomb's mu
     Vec3 gravity = Vec3::Zero();    ///< less buoyancy, m/s^2
     const AirForce* air = nullptr;  ///< what moving through air does to the ball; null for nothing
+    double rolling = 0;             ///< as in FlatContact
+    double pivoting = 0;
+    bool roll_begins = false;  ///< it still goes where gravity pulls: that is resisted
+    int pivots = 0;            ///< sign of the spin about the normal; 0 while friction holds it
 
     /// Gravity and air together, m/s^2.
     Vec3 pull(const ContactState& state) const {
@@ -63,6 +67,10 @@ struct SingleContactForces {
 /// (E. J. Routh, Dynamics of a System of Rigid Bodies, Advanced Part, 1905, ch. V; the term with
 /// w.n turns a ball that rolls obliquely on a cylinder.) What n' is for a velocity is the feature's
 /// to say (Feature::motion_at): all that the law knows of the surface's curvatures.
+///
+/// Rolling resistance adds -r v/|v| to the friction of a roll, and a moment that keeps s = 0, as on
+/// a flat surface (flat_contact.h). Pivoting takes p N/(k R^2) off the spin about n, which the
+/// turning normal changes by w.n'; it holds a spin that is 0 against as much.
 SingleContactForces single_contact_forces(const SingleContact& contact, ContactMode mode,
                                           const ContactState& state);
 
@@ -70,7 +78,23 @@ SingleContactForces single_contact_forces(const SingleContact& contact, ContactM
 /// surface by more than the rounding of its place, which is what the next time of impact sees.
 double lift_off_threshold(const SingleContact& contact, const Vec3& x);
 
-/// mu N - |f| of rolling: it rolls while this is >= 0.
+/// What rolling resistance takes off a roll along the unit vector `along` [m/s^2]: its law's, or
+/// what friction has left where that is less.
+double rolling_resistance(const SingleContact& contact, const SingleContactForces& forces,
+                          const Vec3& along);
+
+/// Whether rolling resistance holds a ball that stands where gravity pulls it along the surface.
+bool holds_still(const SingleContact& contact, const SingleContactForces& forces);
+
+/// p N/(k R^2) - |w.n'|: a spin about the normal that is 0 stays so while this is >= 0 [rad/s^2].
+double pivot_hold_left(const SingleContact& contact, const SingleContactForces& forces,
+                       const ContactState& state);
+
+/// Takes the spin about the normal away where it is no more than `still` [rad/s], and says which
+/// way it goes on: 0 where friction holds it, as it does all spins without pivoting.
+int pivot_of(const SingleContact& contact, ContactMode mode, ContactState& state, double still);
+
+/// mu N - |f| of rolling, without its resistance: it rolls while this is >= 0.
 double grip_left(const SingleContact& contact, const SingleContactForces& forces);
 
 /// Ends what is left of a slip by the impulse of friction that this takes: momentum and energy go

@@ -79,7 +79,13 @@ double seconds_on_face(const Piece& piece, double radius, const SurfaceShape& sh
 
 FlatContact flat_contact(const ExactWorld& world, int ball, const Contact& contact) {
     const ExactBall& body = world.ball(ball);
-    return {contact.normal, body.radius, body.inertia_factor, contact.friction, world.pull(ball)};
+    FlatContact flat{contact.normal, body.radius, body.inertia_factor, contact.friction,
+                     world.pull(ball)};
+    if (contact.laws != nullptr) {
+        flat.rolling = contact.laws->rolling;
+        flat.pivoting = contact.laws->pivoting;
+    }
+    return flat;
 }
 
 }  // namespace

@@ -18,6 +18,10 @@ namespace {
 constexpr double kLastHop = 1e-12;
 constexpr double kLastRoundings = 16 * std::numeric_limits<double>::epsilon();
 
+/// Where the coefficient of slow impacts is 1 by its law, hops of so many times that are the last
+/// ones: a ball would take millions of them a second.
+constexpr double kEndlessHop = 1000;
+
 /// Two bodies of an island that is integrated touch up to this gap, as a fraction of the smaller
 /// radius: a hundred times the error of a piece.
 constexpr double kFineGap = 1e-10;
@@ -33,9 +37,10 @@ double pressing_pull(const Vec3& pull, const Vec3& normal) {
 
 }  // namespace
 
-double ContactRules::hop_limit(int ball, const Vec3& position) const {
-    return std::max(kLastHop * world_.ball(ball).radius,
-                    kLastRoundings * position.cwiseAbs().maxCoeff());
+double ContactRules::hop_limit(int ball, const Vec3& position, const ContactLaws* laws) const {
+    const double limit = std::max(kLastHop * world_.ball(ball).radius,
+                                  kLastRoundings * position.cwiseAbs().maxCoeff());
+    return laws != nullptr && laws->is_endless() ? kEndlessHop * limit : limit;
 }
 
 double ContactRules::pressing(const Contact& c, double now, const Vec3& velocity) const {
@@ -67,7 +72,7 @@ bool ContactRules::approaches_at_start(int ball, const std::vector<Contact>& con
             -world_.pull_on(ball, {world_.body(ball).velocity, world_.body(ball).spin})
                  .dot(c.normal);
         return v > kStillFraction * world_.body(ball).velocity.norm() &&
-               !(v * v / 2 < g_n * hop_limit(ball, world_.body(ball).position));
+               !(v * v / 2 < g_n * hop_limit(ball, world_.body(ball).position, c.laws));
     });
 }
 
@@ -80,7 +85,7 @@ bool ContactRules::lasts(const Contact& c, int ball, double now, const Vec3& vel
     bounce_time_left = 0;
     if (v <= kStillFraction * speed_scale) return true;
     const Vec3 x = world_.position(ball, now);
-    if (v * v / (2 * g_n) >= hop_limit(ball, x)) return false;
+    if (v * v / (2 * g_n) >= hop_limit(ball, x, c.laws)) return false;
     // Hops that drown in rounding are a contact for any coefficient; only for 1 they have no end.
     if (c.restitution < 1) bounce_time_left = 2 * v / (g_n * (1 - c.restitution));
     return true;
@@ -135,7 +140,7 @@ bool ContactRules::hops_on(const Contact& contact, const Link& link, double sepa
     const double a = link.push.dot(contact.normal) / kIslandStep * inverse_mass;
     return a > kBalanced * world_.scene.simulation.gravity.norm() &&
            separation * separation / (2 * a) <
-               hop_limit(contact.ball, world_.position(contact.ball, now));
+               hop_limit(contact.ball, world_.position(contact.ball, now), contact.laws);
 }
 
 }  // namespace carom

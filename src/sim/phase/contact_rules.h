@@ -15,8 +15,9 @@ class ContactRules {
     ContactRules(const ExactWorld& world, const InstantNotes& notes)
         : world_(world), notes_(notes) {}
 
-    /// m: a hop lower than this drowns in the rounding of the ball's place.
-    double hop_limit(int ball, const Vec3& position) const;
+    /// m: a hop lower than this drowns in the rounding of the ball's place; or, where slow impacts
+    /// lose ever less, so that bounces have no end, is a thousand times as high.
+    double hop_limit(int ball, const Vec3& position, const ContactLaws* laws) const;
     /// What presses a ball of the velocity `velocity` [m/s] onto a surface, m/s^2: gravity and
     /// air, and on a surface that bends towards the ball, such as the inside of a ring, its own
     /// motion along it. 0 where that is none, but for rounding.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact/contact_laws.h"
 #include "sim/group/island_step.h"
 #include "sim/integrate/uniform_piece.h"
 #include "sim/law/contact_modes.h"
@@ -74,6 +75,7 @@ bool CoupledIslands::coupled_system(const std::vector<int>& island, double now,
         for (const Link& link : links_.of(island[b])) {
             const Contact c = world_.contact_at(island[b], link.partner, now);
             if (c.ball != island[b]) continue;
+            if (is_resisted(c)) return false;  // their moments are a step's to apply
             if (system.contact_count == kMostCoupledContacts || -c.depth < -kLinkGap * body.radius)
                 return false;
             CoupledContact& contact = system.contacts[system.contact_count++];

@@ -38,6 +38,35 @@ void sit(IntegratedPhase& phase, const Vec3& axis) {
     if (phase.contact.friction > 0) phase.state.w = phase.state.w.dot(axis) * axis;
 }
 
+/// Spin about the normal of this fraction of a ball's speeds is none.
+constexpr double kNoPivot = 1e-12;
+
+/// Takes a speed that is no more than `still` [m/s] from a ball that rolls. Whether gravity sets it
+/// going from there against rolling resistance.
+bool begins_to_roll(IntegratedPhase& phase, const SingleContactForces& forces, double still) {
+    ContactState& s = phase.state;
+    if (s.v.norm() > still) return false;
+    s.v.setZero();
+    s.w = s.w.dot(forces.normal) * forces.normal;
+    return !holds_still(phase.contact, forces);
+}
+
+/// Which way the spin about the normal goes on; of none, nothing is left.
+void set_pivot(IntegratedPhase& phase) {
+    const double radius = phase.contact.radius;
+    const double speed = phase.state.v.norm() + radius * phase.state.w.norm() +
+                         std::sqrt(phase.contact.gravity.norm() * radius);
+    phase.contact.pivots =
+        pivot_of(phase.contact, phase.mode, phase.state, kNoPivot * speed / radius);
+}
+
+/// A roll that had begun, but that resistance holds before it is one of its own.
+bool fails_to_roll(const IntegratedPhase& phase) {
+    return phase.contact.roll_begins && !phase.state.v.isZero(0) &&
+           holds_still(phase.contact,
+                       single_contact_forces(phase.contact, phase.mode, phase.state));
+}
+
 }  // namespace
 
 bool HeldBalls::is_given_up(int ball, double now) const {
@@ -125,6 +154,10 @@ HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const C
     add_borders_of_others(world_, contact, phase.state, phase.contact);
     phase.contact.inertia_factor = body.inertia_factor;
     phase.contact.friction = contact.friction;
+    if (contact.laws != nullptr) {
+        phase.contact.rolling = contact.laws->rolling;
+        phase.contact.pivoting = contact.laws->pivoting;
+    }
     phase.next_seconds = 0;
     project(phase.contact, ContactMode::kSmooth, phase.state);
     const SingleContactForces forces =
@@ -136,18 +169,42 @@ HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const C
     const bool seated = pull.norm() < phase.contact.hold * forces.push &&
                         phase.state.v.norm() < kSeated * std::sqrt(gravity.norm() * body.radius);
     if (seated) sit(phase, forces.normal);
+    if (phase.contact.rolling > 0 && phase.mode == ContactMode::kRolling)
+        phase.contact.roll_begins =
+            begins_to_roll(phase, forces, rules_.slip_tolerance(ball, now, velocities));
     const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
-    const bool rests = seated || (still && pull.norm() <= kBalanced * gravity.norm());
+    const bool held = still && phase.mode == ContactMode::kRolling && !phase.contact.roll_begins &&
+                      holds_still(phase.contact, forces);
+    const bool rests = seated || held || (still && pull.norm() <= kBalanced * gravity.norm());
+    set_pivot(phase);
     forms_.hold(ball, now, Phase::kIntegrated, contact.other.index, forces.normal,
                 rests ? EventKind::kRest : kind_of(phase.mode), onset);
     if (!rests) return advance(ball, now);
+    begin_rest(ball, now, forces);
+    return {};
+}
+
+/// The ball stays where it is. What is left of its spin about the normal slows, if something
+/// resists that.
+void HeldBalls::begin_rest(int ball, double now, const SingleContactForces& forces) {
+    IntegratedPhase& phase = integrated_[ball];
     BallState at = world_.state(ball, now);
     at.position = phase.state.x;
     at.velocity.setZero();
     at.spin = phase.state.w;
+    Vec3 spin_rate = Vec3::Zero();
     world_.ball(ball).phase_end = kInfinity;
-    world_.begin_piece(ball, now, at, Vec3::Zero(), Vec3::Zero());
-    return {};
+    if (phase.contact.pivots != 0) {
+        const double rate =
+            phase.contact.pivoting * forces.push /
+            (phase.contact.inertia_factor * phase.contact.radius * phase.contact.radius);
+        const double spin = at.spin.dot(forces.normal);
+        spin_rate = -std::copysign(rate, spin) * forces.normal;
+        world_.ball(ball).phase_end = now + std::abs(spin) / rate;
+        phase.state.w -= spin * forces.normal;
+        phase.end = SingleEnd::kRollEnds;  // it is at rest still
+    }
+    world_.begin_piece(ball, now, at, Vec3::Zero(), spin_rate);
 }
 
 /// Whether it slides or rolls, and the forces then.
@@ -183,6 +240,7 @@ HeldBalls::Handover HeldBalls::advance(int ball, double now) {
     IntegratedPhase& phase = integrated_[ball];
     if (phase.last_begin != now) phase.at_once = 0;
     phase.last_begin = now;
+    if (fails_to_roll(phase)) phase.contact.roll_begins = false;
     const SinglePiece piece = next_piece(phase.contact, phase.mode, phase.state, now,
                                          phase.next_seconds, phase.at_once >= kMostAtOnce);
     phase.end = piece.end;
@@ -230,6 +288,11 @@ HeldBalls::Handover HeldBalls::end_integrated(int ball, double now) {
             break;
         case SingleEnd::kLiftOff:
             return lift_off(ball, now, surface, b.normal);
+        case SingleEnd::kRollEnds:
+            phase.state.v.setZero();
+            phase.state.w = phase.state.w.dot(b.normal) * b.normal;
+            return begin(ball, now, world_.contact_at(ball, surface, now),
+                         {phase.state.v, phase.state.w}, {});
         case SingleEnd::kSlipEnds:
             end_slip(phase.contact, phase.state);
             [[fallthrough]];
@@ -244,6 +307,15 @@ HeldBalls::Handover HeldBalls::end_integrated(int ball, double now) {
         }
         case SingleEnd::kSlipGrows:
             phase.mode = ContactMode::kSliding;
+            break;
+        case SingleEnd::kRollGrows:
+            phase.contact.roll_begins = false;
+            break;
+        case SingleEnd::kPivotEnds:
+            phase.state.w -= phase.state.w.dot(b.normal) * b.normal;
+            [[fallthrough]];
+        case SingleEnd::kPivotSlips:
+            set_pivot(phase);
             break;
         case SingleEnd::kGripEnds:
             phase.mode = ContactMode::kIncipient;

@@ -45,6 +45,7 @@ class HeldBalls {
                                  const SingleContact& feature, const Velocities& velocities,
                                  const Onset& onset);
     std::optional<Handover> go_over_seam(int ball, double now, const Velocities& velocities);
+    void begin_rest(int ball, double now, const SingleContactForces& forces);
     SingleContactForces choose_mode(IntegratedPhase& phase, double tolerance) const;
     Handover lift_off(int ball, double now, const Partner& surface, const Vec3& normal);
     Handover advance(int ball, double now);

@@ -190,6 +190,8 @@ void Piles::state_pair(PilePair& pair, double now) {
         e.tangential_impulse = pair.impact_tangential;
         log_.add(e);
         ++log_.report.impacts;
+        if (pair.laws != nullptr && pair.laws->tangential_restitution != 0)
+            ++log_.report.without_spring;
     }
     if (pair.kind.is_stated() && pair.gap > pile_.rules().separation_gap()) {
         pair.kind.state_leave();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/contact/contact_laws.h"
 #include "sim/record/event_log.h"
 
 namespace carom {
@@ -43,6 +44,7 @@ void RunLog::add_impacts(const std::vector<Contact>& impacts, double now) {
 }
 
 bool RunLog::slid_in_impact(const Contact& c, double now) const {
+    if (tangential_restitution(c) != 0) return false;
     for (auto e = events_.rbegin(); e != events_.rend() && e->time == now; ++e)
         if (e->kind == EventKind::kImpact && e->ball == c.ball && e->other == c.other)
             return e->tangential_impulse >= kSlides * c.friction * e->impulse;

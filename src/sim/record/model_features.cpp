@@ -7,6 +7,38 @@
 
 namespace carom {
 
+namespace {
+
+/// What contacts do beyond constant coefficients: by whether materials that can meet have it.
+void add_law_effects(std::map<std::string, Effect>& effects, const Scene& scene,
+                     const PairTable& pairs) {
+    const auto named_by = [&scene](const auto& is_named) {
+        return std::any_of(scene.materials.begin(), scene.materials.end(), is_named) ||
+               std::any_of(scene.pairs.begin(), scene.pairs.end(), is_named);
+    };
+    const auto add = [&effects](const char* name, bool named, bool on, const char* why) {
+        effects[name] = on      ? Effect{true, why}
+                        : named ? Effect{false, "no two things that can meet have it"}
+                                : Effect{false, "no material and no pair names it"};
+    };
+    add("restitution_by_speed",
+        named_by([](const auto& n) { return n.restitution_law.has_value(); }),
+        pairs.any([](const ContactLaws& laws) { return laws.by_speed(); }),
+        "coefficients depend on the approach speed of each impact");
+    add("tangential_restitution",
+        named_by([](const auto& n) { return n.tangential_restitution.has_value(); }),
+        pairs.any([](const ContactLaws& laws) { return laws.tangential_restitution != 0; }),
+        "impacts that grip reverse a part of the slip");
+    add("rolling", named_by([](const auto& n) { return n.rolling.has_value(); }),
+        pairs.any([](const ContactLaws& laws) { return laws.rolling > 0; }),
+        "rolling is resisted: on one surface exactly, else at the end of each step");
+    add("pivoting", named_by([](const auto& n) { return n.pivoting.has_value(); }),
+        pairs.any([](const ContactLaws& laws) { return laws.pivoting > 0; }),
+        "spin about normals is resisted: on one surface exactly, else at the end of each step");
+}
+
+}  // namespace
+
 std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pairs) {
     std::map<std::string, Effect> effects;
     const double g = scene.simulation.gravity.norm();
@@ -38,6 +70,7 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
         : named  ? Effect{false, "no two materials that can meet both have it: no friction rows"}
                  : Effect{false, "no material and no pair names friction: no friction rows"};
 
+    add_law_effects(effects, scene, pairs);
     const bool spins = std::any_of(scene.balls.begin(), scene.balls.end(),
                                    [](const Ball& b) { return !b.spin.isZero(0); });
     const bool decays =
@@ -46,9 +79,18 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
         });
     effects["spin"] = decays && spins ? Effect{true, "the air takes spin away"}
                       : friction      ? Effect{true, "friction turns the balls"}
+                      : spins && effects.at("pivoting").on
+                          ? Effect{true, "a ball spins at the start, and contacts slow that"}
                       : spins ? Effect{true, "a ball spins at the start; nothing changes its spin"}
                               : Effect{false, "no ball spins at the start, no friction turns one"};
     return effects;
+}
+
+void leave_out_resistance(SimulationReport& report) {
+    for (const char* name : {"rolling", "pivoting"}) {
+        Effect& effect = report.effects.at(name);
+        if (effect.on) effect = {false, "materials have it, but the method fixed leaves it out"};
+    }
 }
 
 void add_contact_effects(SimulationReport& report, bool in_free_space) {
@@ -72,6 +114,9 @@ void add_contact_effects(SimulationReport& report, bool in_free_space) {
                                        "events had no end, was stepped by ODE for a while",
                                        report.given_up)}
             : Effect{false, "no contact was given up on"};
+    if (report.without_spring > 0)
+        report.effects["tangential_restitution"].why += fmt::format(
+            ", but for {} of a pile, which end their slip at the most", report.without_spring);
 }
 
 }  // namespace carom

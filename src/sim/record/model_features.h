@@ -10,12 +10,16 @@
 
 namespace carom {
 
-/// gravity, surfaces, pairs (ball against ball), friction, spin; each with the reason.
+/// gravity, surfaces, pairs (ball against ball), friction, spin, restitution_by_speed,
+/// tangential_restitution, rolling, pivoting; each with the reason.
 std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pairs);
 
 /// Adds islands (contacts that act on each other), collapse (heaps that nothing presses together,
 /// which need free space) and last_resort (contacts that were given up on),
 /// from the counts of the report.
 void add_contact_effects(SimulationReport& report, bool in_free_space);
+
+/// The method `fixed` has no rolling resistance and no pivoting: says so where materials have it.
+void leave_out_resistance(SimulationReport& report);
 
 }  // namespace carom

@@ -21,8 +21,9 @@ struct SimulationReport {
     std::int64_t steps = 0;       ///< of ODE
     std::int64_t integrated = 0;  ///< pieces of balls that act on each other, by the method exact
     std::int64_t impacts = 0;
-    std::int64_t given_up = 0;   ///< contacts that were stepped because nothing else got on
-    std::int64_t collapses = 0;  ///< impacts on heaps that nothing presses together
+    std::int64_t given_up = 0;        ///< contacts that were stepped because nothing else got on
+    std::int64_t without_spring = 0;  ///< impacts in piles that leave tangential restitution out
+    std::int64_t collapses = 0;       ///< impacts on heaps that nothing presses together
     std::map<std::string, Effect> effects;  ///< gravity, friction, spin, pairs, ...
     /// Of a motion until rest that ended at max_duration: what still moved. Else empty.
     std::string unrest;

@@ -24,6 +24,12 @@ void let_bounce(dContact& joint, double restitution) {
     joint.surface.bounce_vel = 0;
 }
 
+void reverse_slip(dContact& joint, double part, const Vec3& slip) {
+    if ((joint.surface.mode & dContactFDir1) == 0) return;
+    joint.surface.mode |= dContactMotion1;
+    joint.surface.motion1 = -part * slip.dot(from_ode(joint.fdir1));
+}
+
 void keep_above(dContact& joint, double speed) {
     joint.surface.mode |= dContactMotionN;
     joint.surface.motionN = speed;

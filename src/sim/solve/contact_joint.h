@@ -19,6 +19,10 @@ dContact contact_joint(const Touch& contact, const Vec3& center, const Vec3& sli
 /// The joint gives Newton's law with the contact's coefficient, whatever the approach speed.
 void let_bounce(dContact& joint, double restitution);
 
+/// The joint leaves minus `part` times `slip` [m/s] along its first axis of friction, as far as
+/// friction does that.
+void reverse_slip(dContact& joint, double part, const Vec3& slip);
+
 /// The joint keeps the speed along the normal at or above `speed` [m/s] after the step, without
 /// ODE's own correction of places.
 void keep_above(dContact& joint, double speed);

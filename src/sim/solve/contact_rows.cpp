@@ -64,7 +64,7 @@ double ContactRow::relax() {
 
     const Vec3 relative = speed();
     const Vec3 slip = relative - relative.dot(n) * n;
-    const Vec3 allowed = within_cone(tangential - tangential_mass * slip);
+    const Vec3 allowed = within_cone(tangential - tangential_mass * (slip - slip_target));
     const Vec3 step = allowed - tangential;
     tangential = allowed;
     push(step);

@@ -17,11 +17,12 @@ struct ContactRow {
     ImpactBody* ball = nullptr;
     ImpactBody* other = nullptr;  ///< null for a surface
     const SolverContact* contact = nullptr;
-    double target = 0;               ///< least speed along the normal afterwards, m/s
-    double normal_mass = 0;          ///< kg: impulse per change of the speed along the normal
-    double tangential_mass = 0;      ///< kg, the same across it, spin included
-    double normal = 0;               ///< N s, >= 0
-    Vec3 tangential = Vec3::Zero();  ///< N s
+    double target = 0;                ///< least speed along the normal afterwards, m/s
+    Vec3 slip_target = Vec3::Zero();  ///< the slip that friction aims at, m/s
+    double normal_mass = 0;           ///< kg: impulse per change of the speed along the normal
+    double tangential_mass = 0;       ///< kg, the same across it, spin included
+    double normal = 0;                ///< N s, >= 0
+    Vec3 tangential = Vec3::Zero();   ///< N s
 
     /// Velocity of the ball's material point over the other's, m/s.
     Vec3 speed() const;

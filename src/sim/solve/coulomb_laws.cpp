@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/contact/contact_laws.h"
 #include "sim/solve/contact_rows.h"
 
 namespace carom {
@@ -58,8 +59,9 @@ CoulombLaws::CoulombLaws(const std::vector<ImpactBody>& bodies,
         axes_.push_back(axes_at(c.normal));
         mass_.emplace_back(row.normal_mass, row.tangential_mass, row.tangential_mass);
         kappa_.push_back(c.friction * row.normal_mass / row.tangential_mass);
-        target_.push_back(c.restitution * std::max(c.approach_speed, 0.0));
         before_.segment<3>(at(i)) = axes_.back().transpose() * row.speed();
+        target_.emplace_back(-tangential_restitution(c) * before_.segment<3>(at(i)));
+        target_.back()[0] = c.restitution * std::max(c.approach_speed, 0.0);
         most = std::max(most, ++contacts_of[static_cast<std::size_t>(c.body)]);
         if (!c.on_surface())
             most = std::max(most, ++contacts_of[static_cast<std::size_t>(c.other_body)]);
@@ -99,8 +101,7 @@ Eigen::Vector3d CoulombLaws::wanted(std::size_t contact, const Eigen::VectorXd& 
                                     const Eigen::VectorXd& after) const {
     const Eigen::Index i = at(contact);
     Eigen::Vector3d z = y.segment<3>(i) - after.segment<3>(i);
-    z[0] += share_ * target_[contact];
-    return z;
+    return z + share_ * target_[contact];
 }
 
 /// What both laws make of z.

@@ -13,16 +13,18 @@ namespace carom {
 /// that it feels along and across the normal, y [m/s], which is the change of speed that it makes
 /// by itself. With w the relative speeds after, w = before + coupling y, the laws are roots of
 ///
-///   y_n - max(0, z_n)                with z = y - (w - target along the normal),
+///   y_n - max(0, z_n)                with z = y - (w - target),
 ///   y_t - z_t within the disc of radius kappa max(0, z_n),
 ///
-/// kappa = mu m_n / m_t (P. Alart and A. Curnier, "A mixed formulation for frictional contact
-/// problems prone to Newton like solution methods", 1991). They have no parameter to be chosen,
-/// since a contact of balls does not couple its own normal with its tangents.
+/// kappa = mu m_n / m_t; along the normal the target is the speed of the rebound, across it what
+/// tangential restitution makes of the slip, 0 without (P. Alart and A. Curnier, "A mixed
+/// formulation for frictional contact problems prone to Newton like solution methods", 1991). They
+/// have no parameter to be chosen, since a contact of balls does not couple its own normal with its
+/// tangents.
 class CoulombLaws {
   public:
-    /// `bodies` as before the impact; reads normal, arms, restitution and friction of `contacts`
-    /// and approach_speed, from which the targets follow: e max(u, 0).
+    /// `bodies` as before the impact; reads normal, arms, restitution, friction and laws of
+    /// `contacts` and approach_speed, from which the targets follow: e max(u, 0), -b (the slip).
     CoulombLaws(const std::vector<ImpactBody>& bodies, const std::vector<SolverContact>& contacts);
 
     /// The targets are taken as `share` times their full values.
@@ -55,8 +57,8 @@ class CoulombLaws {
     std::vector<Mat3> axes_;  ///< per contact: normal and tangents, as columns
     std::vector<Vec3> mass_;  ///< per contact, along them, kg
     std::vector<double> kappa_;
-    std::vector<double> target_;  ///< m/s
-    Eigen::VectorXd before_;      ///< relative speeds, m/s
+    std::vector<Vec3> target_;  ///< m/s
+    Eigen::VectorXd before_;    ///< relative speeds, m/s
     Eigen::MatrixXd coupling_;
     double share_ = 1;
     double momentum_ = 0;  ///< of all bodies together, that of spin included, N s

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/failure.h"
+#include "sim/contact/contact_laws.h"
 #include "sim/solve/contact_joint.h"
 #include "sim/solve/contact_rows.h"
 #include "sim/solve/contact_sweeps.h"
@@ -39,6 +40,8 @@ Velocities other_velocities(const SolverContact& c, const std::vector<ImpactBody
     return c.on_surface() ? Velocities{}
                           : bodies[static_cast<std::size_t>(c.other_body)].velocities;
 }
+
+bool springs_back(const SolverContact& c) { return tangential_restitution(c) != 0; }
 
 double energy(const std::vector<ImpactBody>& bodies) {
     double sum = 0;
@@ -139,6 +142,7 @@ void ImpactSolver::solve_single(std::vector<ImpactBody>& bodies, SolverContact& 
         return;
     }
     ContactRow row(bodies, c, c.restitution * std::max(c.approach_speed, 0.0));
+    if (const double b = tangential_restitution(c); b != 0) row.slip_target = -b * c.slip;
     row.relax();
     c.impulse = row.normal;
     c.tangential_impulse = row.tangential.norm();
@@ -151,7 +155,9 @@ void ImpactSolver::solve_many(std::vector<ImpactBody>& bodies, std::vector<Solve
     const bool friction =
         several && std::any_of(contacts.begin(), contacts.end(),
                                [](const SolverContact& c) { return c.friction > 0; });
-    if (!many && solve_with_ode(bodies, contacts, time) &&
+    // ODE knows of no tangential restitution.
+    const bool springs = friction && std::any_of(contacts.begin(), contacts.end(), springs_back);
+    if (!many && !springs && solve_with_ode(bodies, contacts, time) &&
         (!several || is_solved(before_, bodies, contacts)) &&
         (!friction || obeys_friction(before_, contacts, world_->impulses)))
         return;
@@ -168,6 +174,7 @@ void ImpactSolver::solve(std::vector<ImpactBody>& bodies, std::vector<SolverCont
             c, bodies[static_cast<std::size_t>(c.body)].velocities, other_velocities(c, bodies));
         c.approach_speed = -relative.dot(c.normal);
         c.slip = tangential_part(relative, c.normal);
+        find_restitution(c);
     }
     if (contacts.size() == 1 && single_ == SingleContacts::kClosedForm)
         solve_single(bodies, contacts.front());

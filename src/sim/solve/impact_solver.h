@@ -28,9 +28,10 @@ class ImpactSolver {
     ImpactSolver& operator=(const ImpactSolver&) = delete;
 
     /// Solves all `contacts` at once. Their `body` and `other_body` (unless a surface) index
-    /// `bodies`; normal, arms, restitution and friction are used. Fills speeds, slips and impulses
-    /// of the contacts, and the velocities of the bodies after the impact. Throws Failure(kRun)
-    /// naming `time` [s] when ODE cannot solve a single contact.
+    /// `bodies`; normal, arms, restitution, friction and laws are used. Fills speeds, slips and
+    /// impulses of the contacts, the restitution where it depends on the approach speed, and the
+    /// velocities of the bodies after the impact. Throws Failure(kRun) naming `time` [s] when ODE
+    /// cannot solve a single contact.
     void solve(std::vector<ImpactBody>& bodies, std::vector<SolverContact>& contacts, double time);
 
     /// How often sweeps had to help so far.

@@ -158,6 +158,7 @@ void ExactWorld::set_pair(Contact& c, int material) const {
     const PairProperties both = pair(ball(c.ball).material, material);
     c.restitution = both.restitution;
     c.friction = both.friction;
+    c.laws = both.laws;
 }
 
 bool ExactWorld::touches(const Contact& c, double t) const {

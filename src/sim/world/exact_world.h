@@ -51,6 +51,12 @@ class ExactWorld : public ExactBalls {
     Contact surface_contact(int i, int surface, const Vec3& x) const;
     bool touches(const Contact& contact, double t) const;
     PairProperties pair(int material_a, int material_b) const;
+    /// Of a ball and what it may meet; null for none.
+    const ContactLaws* laws_between(int i, const Partner& partner) const {
+        const int other =
+            partner.is_surface ? surface(partner.index).material : ball(partner.index).material;
+        return pair(ball(i).material, other).laws;
+    }
 
     /// Whether balls have to look at each other at all, and why (not).
     bool balls_can_meet = true;

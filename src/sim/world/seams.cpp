@@ -121,7 +121,13 @@ bool holds_before(const ExactWorld& world, const Contact& a, const Contact& b, c
     if (holds_rather(of_a, of_b, y, v, size)) return true;
     if (holds_rather(of_b, of_a, y, v, size)) return false;
     // Not by the order in the scene, as far as it makes a difference.
-    if (a.restitution != b.restitution) return a.restitution < b.restitution;
+    const auto at_this_speed = [&velocities](Contact c) {
+        c.approach_speed = -velocities.linear.dot(c.normal);
+        find_restitution(c);
+        return c.restitution;
+    };
+    const double e_a = at_this_speed(a), e_b = at_this_speed(b);
+    if (e_a != e_b) return e_a < e_b;
     if (a.friction != b.friction) return a.friction > b.friction;
     return a.other.index < b.other.index;
 }
