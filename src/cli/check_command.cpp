@@ -1,4 +1,4 @@
-// carom check, carom schema, carom info: what needs neither simulation nor picture.
+// carom check, carom schema: what needs neither simulation nor picture.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,10 +12,7 @@
 #include "cli/options.h"
 #include "cli/standard_error.h"
 #include "cli/standard_output.h"
-#include "cli/stats.h"
-#include "core/failure.h"
 #include "core/readable.h"
-#include "render/painter.h"
 #include "scene/schema.h"
 
 namespace carom {
@@ -78,31 +75,6 @@ int check(const CheckOptions& options, const Interrupt& interrupt) {
     return valid ? kExitDone : kExitInvalidScene;
 }
 
-/// What draws on this machine, or why nothing does.
-std::string renderer() {
-    const Scene scene;
-    const Motion motion;
-    try {
-        return Painter(scene, motion, {16, 16}).renderer();
-    } catch (const Failure& failure) {
-        return fmt::format("none: {}", readable_message(failure.what()));
-    }
-}
-
-int print_info(bool json) {
-    nlohmann::ordered_json object = nlohmann::ordered_json::object();
-    std::map<std::string, std::string> facts = library_versions();
-    facts["renderer"] = renderer();
-    for (const auto& [name, version] : facts) {
-        if (json)
-            object[name] = version;
-        else
-            write_standard_output(fmt::format("{:<12} {}\n", name, version));
-    }
-    if (json) write_standard_output(json_text(object));
-    return kExitDone;
-}
-
 }  // namespace
 
 void add_check_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
@@ -131,13 +103,6 @@ void add_schema_command(CLI::App& app, Run& run) {
             return int{kExitDone};
         };
     });
-}
-
-void add_info_command(CLI::App& app, Run& run) {
-    auto* command = app.add_subcommand("info", "Print the versions of carom and its libraries");
-    auto json = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "As JSON");
-    command->callback([json, &run] { run = [json] { return print_info(*json); }; });
 }
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
@@ -76,6 +77,7 @@ void add_figures_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->take_all()
         ->allow_extra_args(false);
     command->add_flag("-y,--overwrite", options->common.overwrite, "Replace files that exist");
+    add_backend_option(*command);
     command->add_flag("-q,--quiet", options->common.quiet, "Errors only");
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return figures(*options, interrupt); };

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/against.h"
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
@@ -253,6 +254,7 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
             ->allow_extra_args(false);
         add_scene_options(*action, options->common);
         add_picture_options(*action, options->common);
+        add_backend_option(*action);
         add_progress_options(*action, options->common);
         action->callback([options, function, &run, &interrupt] {
             run = [options, function, &interrupt] { return function(*options, interrupt); };

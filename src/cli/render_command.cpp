@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/against.h"
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/encoding_options.h"
@@ -16,6 +17,7 @@
 #include "cli/film_plan.h"
 #include "cli/interrupt.h"
 #include "cli/kept_work.h"
+#include "cli/layer_options.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/shown_simulation.h"
@@ -44,6 +46,7 @@ struct RenderOptions {
     AgainstOptions against;
     CommonOptions common;
     EncodingOptions encoding;
+    LayerOptions layers;
 };
 
 FrameRanges wanted_frames(const RenderOptions& options, const Film& film, double duration) {
@@ -74,35 +77,60 @@ class Filming {
             sinks_.push_back(open_output(output, scene, encoding));
     }
 
+    /// Layers beside the frames, where they are wanted; all must outlive it.
+    void open_layers(const Scene& scene, const Motion& motion, const SecondRun* second);
+
     /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
     void film(Painter& painter, const Film& film);
 
     void add_to(Stats& stats) const {
         for (const auto& sink : sinks_) stats.add_sink(sink->times());
+        if (layers_) stats.layers_cpu_s = layers_->cpu_s();
     }
 
   private:
     bool has_film() const;
     void draw_all(Painter& painter, const Film& film, KeptWork* kept);
     void keep_partial() const;
+    void write_layers(std::int64_t frame, const Film& film);
 
     const RenderOptions& options_;
     const Interrupt& interrupt_;
     const FrameRanges& frames_;
     std::vector<std::unique_ptr<FrameSink>> sinks_;
+    std::unique_ptr<LayerFiles> layers_;  ///< null: none are wanted
+    std::int64_t frame_count_ = 0;        ///< of the whole film
     std::int64_t done_ = 0;
 };
 
+void Filming::open_layers(const Scene& scene, const Motion& motion, const SecondRun* second) {
+    if (!options_.layers.wanted()) return;
+    const std::vector<OutputRequest> outputs = requests(options_);
+    layers_ = std::make_unique<LayerFiles>(
+        scene, motion,
+        LayerSettings{scene.film.width_px, scene.film.height_px, options_.layers.kinds(), second},
+        layer_index_path(frames_for_layers(outputs), frames_, !options_.chunk.empty()),
+        options_.common.existing(), Durability::kUnsynced);
+    frame_count_ = frame_count(scene.film, motion.duration);
+}
+
+void Filming::write_layers(std::int64_t frame, const Film& film) {
+    const std::vector<OutputRequest> outputs = requests(options_);
+    layers_->write(sequence_path(frames_for_layers(outputs).path, frame), frame,
+                   instants_of_frame(film, frame, frame_count_));
+}
+
 void Filming::film(Painter& painter, const Film& film) {
-    // PNGs are whole or not there; half a film must be closed to be one.
+    // PNGs are whole or not there; half a film must be closed to be one, and layers want an index.
     std::optional<KeptWork> kept;
-    if (has_film()) kept.emplace(interrupt_, [this] { keep_partial(); });
+    if (has_film() || layers_) kept.emplace(interrupt_, [this] { keep_partial(); });
     draw_all(painter, film, kept ? &*kept : nullptr);
     if (done_ < frames_.size()) {
         keep_partial();
         throw Interrupted{};
     }
     for (const auto& sink : sinks_) sink->finish();
+    if (layers_) layers_->finish();
 }
 
 bool Filming::has_film() const {
@@ -116,7 +144,13 @@ void Filming::draw_all(Painter& painter, const Film& film, KeptWork* kept) {
     FilmingHooks hooks;
     hooks.stops = [this] { return interrupt_.requested(); };
     if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
+    FrameRanges::Iterator frame = frames_.begin();
     hooks.written = [&](std::int64_t done) {
+        if (layers_) {
+            kept->step([&] { write_layers(*frame, film); });
+            layers_->add_to_index();
+        }
+        ++frame;
         done_ = done;
         progress.update(static_cast<double>(done));
     };
@@ -130,6 +164,7 @@ void Filming::keep_partial() const {
     for (const auto& sink : sinks_)
         if (const std::string kept = sink->keep_partial(); !kept.empty())
             say("carom: kept {}\n", readable(kept));
+    if (layers_) layers_->finish();
 }
 
 std::string plan_text(const RenderOptions& options, const Scene& scene, const Motion& motion,
@@ -146,13 +181,22 @@ std::string plan_text(const RenderOptions& options, const Scene& scene, const Mo
     return text + needs_text(needs) + "\n";
 }
 
+/// Refuses files that exist, and what has no room.
+void check_files(const RenderOptions& options, const Scene& scene, const FrameRanges& frames) {
+    const std::vector<OutputRequest> outputs = requests(options);
+    check_outputs(outputs, frames, options.common.overwrite);
+    if (options.layers.wanted())
+        require_new_layers(options.layers, frames_for_layers(outputs), frames,
+                           !options.chunk.empty(), options.common.overwrite);
+    require_room(outputs, scene, options.encoding, frames.size());
+}
+
 /// What can be refused before simulating, when the scene says how long it lasts. True if nothing is
 /// left to do: a chunk without frames.
 bool is_done_early(const RenderOptions& options, const Scene& scene) {
     if (!scene.simulation.duration) return false;
     const FrameRanges frames = wanted_frames(options, scene.film, *scene.simulation.duration);
-    check_outputs(requests(options), frames, options.common.overwrite);
-    require_room(requests(options), scene, options.encoding, frames.size());
+    check_files(options, scene, frames);
     return frames.empty() && !options.dry_run;
 }
 
@@ -173,6 +217,11 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     check_output_names(requests(options), {{"--stats", options.common.stats_path}},
                        {{"SCENE", options.scene}, {"--against", options.against.scene}});
     require_stats_writable(options.common);
+    if (options.layers.wanted()) {
+        const std::vector<OutputRequest> outputs = requests(options);
+        frames_for_layers(outputs);
+        require_layer_libraries(options.layers.kinds());
+    }
 
     std::optional<FilmScenes> scenes;
     {
@@ -200,19 +249,20 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     stats.add_verdict(*scene, motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
     const FrameRanges frames = wanted_frames(options, scene->film, motion.duration);
-    check_outputs(requests(options), frames, options.common.overwrite);
-    require_room(requests(options), *scene, options.encoding, frames.size());
+    check_files(options, *scene, frames);
     if (options.dry_run) {
         write_standard_output(plan_text(options, *scene, motion, frames));
         return kExitDone;
     }
     if (frames.empty()) return nothing_to_do(options);
 
+    require_one_picture(options.layers, second ? &second->run : nullptr);
     Painter painter(*scene, motion,
                     {scene->film.width_px, scene->film.height_px, second ? &second->run : nullptr});
     if (options.common.verbose) say("carom: {}\n", painter.renderer());
     Filming filming(options, interrupt, frames);
     filming.open(*scene);
+    filming.open_layers(*scene, motion, second ? &second->run : nullptr);
     filming.film(painter, scene->film);
     stats.frames = frames.size();
     filming.add_to(stats);
@@ -273,9 +323,11 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
                      "Frames per second, e.g. 30000/1001 (default: the scene's film.fps)")
         ->type_name("N");
     add_encoding_options(*command, options->encoding);
+    add_layer_option(*command, options->layers);
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
+    add_backend_option(*command);
     add_output_options(*command, options->common);
     add_talk_options(*command, options->common);
     command->callback([options, &run, &interrupt] {

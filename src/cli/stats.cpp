@@ -114,6 +114,7 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
                      {"convert", stats.sinks.convert_cpu_s},
                      {"encode", stats.sinks.encode_cpu_s},
                      {"write", stats.sinks.write_cpu_s}};
+    if (stats.layers_cpu_s) json["cpu_s"]["layers"] = *stats.layers_cpu_s;
     json["frames"] = stats.frames;
     json["steps"] = result != nullptr ? result->report.steps : 0;
     json["impacts"] = result != nullptr ? result->report.impacts : 0;

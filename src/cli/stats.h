@@ -20,6 +20,7 @@ struct Stats {
     double sim_cpu_s = 0;
     double draw_cpu_s = 0;
     double read_cpu_s = 0;
+    std::optional<double> layers_cpu_s;  ///< where layers are written
     SinkTimes sinks;
     std::int64_t frames = 0;
     std::string renderer;

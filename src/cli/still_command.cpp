@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "cli/against.h"
+#include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/cpu_timer.h"
 #include "cli/distinct_files.h"
 #include "cli/encoding_options.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
+#include "cli/layer_options.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/short_lived.h"
@@ -39,6 +41,7 @@ struct StillOptions {
     std::optional<double> strobe;  ///< s between instants
     std::optional<double> dpi;
     AgainstOptions against;
+    LayerOptions layers;
     CommonOptions common;
 };
 
@@ -50,6 +53,40 @@ void check_output(const StillOptions& options) {
         throw Failure(FailureKind::kInput,
                       fmt::format("-o {}: a still is a .png file", options.output));
     require_writable(options.output, options.common.overwrite);
+}
+
+std::string layer_index_beside(const std::string& picture) {
+    return (std::filesystem::path(picture).parent_path() / "layers.json").string();
+}
+
+/// Refuses layers of what is no single picture in a file, and files that may not be replaced.
+void check_layers(const StillOptions& options) {
+    if (!options.layers.wanted()) return;
+    const std::vector<LayerKind> kinds = options.layers.kinds();
+    if (options.output == "-")
+        throw Failure(FailureKind::kInput, "--layers: layers are files beside the picture, not -");
+    if (options.strobe)
+        throw Failure(FailureKind::kInput,
+                      "--layers: a picture of many instants (--strobe) has none");
+    for (const LayerKind kind : kinds)
+        require_writable(layer_path(options.output, layer_kind_info(kind)),
+                         options.common.overwrite);
+    require_writable(layer_index_beside(options.output), options.common.overwrite);
+    require_layer_libraries(kinds);
+}
+
+void write_layers(const StillOptions& options, const Scene& scene, const Motion& motion,
+                  const SecondRun* second, Stats& stats) {
+    if (!options.layers.wanted()) return;
+    LayerFiles layers(
+        scene, motion,
+        LayerSettings{scene.film.width_px, scene.film.height_px, options.layers.kinds(), second},
+        layer_index_beside(options.output), options.common.existing(), Durability::kSynced);
+    layers.write(options.output, std::nullopt,
+                 instants_of_still(scene.film, options.time, motion.duration));
+    layers.add_to_index();
+    layers.finish();
+    stats.layers_cpu_s = layers.cpu_s();
 }
 
 /// The instants time - k strobe from 0 on, increasing; `time` itself is the last.
@@ -73,12 +110,26 @@ std::vector<double> instants(const StillOptions& options) {
     return result;
 }
 
+PainterOptions painter_options(const StillOptions& options, const Film& film,
+                               const SecondRun* second) {
+    require_one_picture(options.layers, second);
+    PainterOptions painting;
+    painting.width_px = film.width_px;
+    painting.height_px = film.height_px;
+    painting.second = second;
+    painting.few_pictures = draws_sooner_than_it_compiles(painting.width_px, painting.height_px);
+    if (painting.few_pictures) prefer_quick_compile();
+    painting.only_at = options.time;
+    return painting;
+}
+
 int still(const StillOptions& options, const Interrupt& interrupt) {
     ask_for_memory_in_large_parts();
     Stats stats;
     require_distinct({{"-o", options.output}, {"--stats", options.common.stats_path}},
                      {{"SCENE", options.scene}, {"--against", options.against.scene}});
     check_output(options);
+    check_layers(options);
     const DriverPreload driver;
     std::optional<FilmScenes> scenes;
     {
@@ -109,13 +160,8 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
         throw Failure(FailureKind::kInput, fmt::format("--time {}: the motion lasts from 0 to {} s",
                                                        options.time, duration));
 
-    PainterOptions painting;
-    painting.width_px = scene->film.width_px;
-    painting.height_px = scene->film.height_px;
-    painting.second = second ? &second->run : nullptr;
-    painting.few_pictures = draws_sooner_than_it_compiles(painting.width_px, painting.height_px);
-    if (painting.few_pictures) prefer_quick_compile();
-    painting.only_at = options.time;
+    const PainterOptions painting =
+        painter_options(options, scene->film, second ? &second->run : nullptr);
     Painter painter(*scene, simulated.motion, painting);
     Image picture;
     painter.paint_strobe(instants(options), picture);
@@ -129,6 +175,7 @@ int still(const StillOptions& options, const Interrupt& interrupt) {
             write_png(options.output, picture, PngEffort::kFast, Durability::kSynced,
                       options.common.existing(), notes);
     }
+    write_layers(options, *scene, simulated.motion, painting.second, stats);
     stats.frames = 1;
     stats.add_painter(painter);
     if (!options.common.stats_path.empty())
@@ -160,9 +207,11 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->required()
         ->type_name("OUT.png");
     add_dpi_option(*command, options->dpi);
+    add_layer_option(*command, options->layers);
     add_against_options(*command, options->against);
     add_scene_options(*command, options->common);
     add_picture_options(*command, options->common);
+    add_backend_option(*command);
     add_output_options(*command, options->common);
     add_progress_options(*command, options->common);
     command->callback([options, &run, &interrupt] {

@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "core/failure.h"
@@ -33,6 +35,16 @@ void* SharedLibrary::address(const char* name) const {
         throw Failure(FailureKind::kRun, fmt::format("{}, but {} has no function {}: {}", need_,
                                                      file_, name, loader_message()));
     return found;
+}
+
+std::string SharedLibrary::folder() const {
+    link_map* map = nullptr;
+    if (dlinfo(handle_, RTLD_DI_LINKMAP, &map) != 0) return "";
+    return std::filesystem::path(map->l_name).parent_path().string();
+}
+
+std::string SharedLibrary::try_to_load(const std::string& file) {
+    return dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL) == nullptr ? loader_message() : "";
 }
 
 }  // namespace carom

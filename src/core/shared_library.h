@@ -18,6 +18,12 @@ class SharedLibrary {
         function = reinterpret_cast<Function>(address(name));
     }
 
+    /// Where it was found, without a slash at its end; "" where the system does not tell.
+    std::string folder() const;
+
+    /// Loads a library ahead of those who need it. The loader's own text where that fails, else "".
+    static std::string try_to_load(const std::string& file);
+
   private:
     void* address(const char* name) const;
 

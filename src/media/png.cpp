@@ -1,13 +1,8 @@
 #include "media/png.h"
 
-// libpng wants setjmp's header first.
-#include <csetjmp>
-//
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -19,6 +14,7 @@
 #include "core/failure.h"
 #include "media/film_text.h"
 #include "media/png_rows.h"
+#include "media/png_writer.h"
 #include "media/straight_alpha.h"
 
 namespace carom {
@@ -26,69 +22,6 @@ namespace carom {
 namespace {
 
 constexpr std::int64_t kMostPixels = 100'000'000;
-
-/// libpng's last words; plain data, because longjmp runs no destructors.
-struct PngText {
-    std::array<char, 256> text = {};
-};
-
-extern "C" {
-void carom_png_error(png_structp png, png_const_charp message) {
-    auto* text = static_cast<PngText*>(png_get_error_ptr(png));
-    std::snprintf(text->text.data(), text->text.size(), "%s", message);
-    png_longjmp(png, 1);
-}
-
-void carom_png_warning(png_structp, png_const_charp) {}  // what can be read is read
-
-void carom_png_append(png_structp png, png_bytep data, png_size_t size) {
-    bool full = false;
-    try {
-        static_cast<std::string*>(png_get_io_ptr(png))
-            ->append(reinterpret_cast<const char*>(data), size);
-    } catch (...) {
-        full = true;  // an exception must not pass through C
-    }
-    if (full) png_error(png, "out of memory");
-}
-}
-
-/// Runs `calls`, which may be left by longjmp at any call of libpng: it must own nothing.
-/// False: libpng failed, the text says why.
-template <class Calls>
-bool guarded(png_structp png, const Calls& calls) {
-    if (setjmp(png_jmpbuf(png)) != 0) return false;
-    calls();
-    return true;
-}
-
-/// libpng's writer, and the bytes that it has made.
-class PngWriter {
-  public:
-    PngWriter() {
-        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &text_, carom_png_error,
-                                       carom_png_warning);
-        if (png_ != nullptr) info_ = png_create_info_struct(png_);
-        if (info_ == nullptr) {
-            png_destroy_write_struct(&png_, nullptr);
-            throw std::bad_alloc();
-        }
-    }
-    ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
-    PngWriter(const PngWriter&) = delete;
-    PngWriter& operator=(const PngWriter&) = delete;
-
-    png_structp png() { return png_; }
-    png_infop info() { return info_; }
-    const char* text() const { return text_.text.data(); }
-    std::string& bytes() { return bytes_; }
-
-  private:
-    PngText text_;
-    std::string bytes_;
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-};
 
 class PngReader {
   public:

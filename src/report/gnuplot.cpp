@@ -191,6 +191,14 @@ std::string read_whole(const std::string& path) {
 
 }  // namespace
 
+std::string gnuplot_version() {
+    // It prints on standard error.
+    const Finished finished = run(
+        {"gnuplot", "-d", "-e", "print sprintf('%.1f.%s', GPVAL_VERSION, GPVAL_PATCHLEVEL)"}, {});
+    if (finished.status != 0) fail(fmt::format("asking for its version: {}", finished.errors));
+    return finished.errors.substr(0, finished.errors.find('\n'));
+}
+
 void run_gnuplot(const std::string& script, const std::string& attempt,
                  const std::stop_token& stop) {
     const TemporaryFolder folder(FailureKind::kRun);

@@ -13,4 +13,7 @@ namespace carom {
 void run_gnuplot(const std::string& script, const std::string& attempt,
                  const std::stop_token& stop = {});
 
+/// "5.4.4"; throws Failure(kRun) as run_gnuplot() does.
+std::string gnuplot_version();
+
 }  // namespace carom

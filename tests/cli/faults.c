@@ -1,6 +1,6 @@
 // Preloaded into the program, this makes the system short of something (see faults.py):
 // FAIL_THREAD=3 fails the third thread that is made, 3+ that and all after it;
-// FAIL_LIBRARY=avcodec fails to load the libraries whose names hold that word.
+// FAIL_LIBRARY=avcodec,EGL fails to load the libraries whose names hold one of these words.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -22,7 +22,13 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
 
 void *dlopen(const char *name, int flags) {
     void *(*real)(const char *, int) = dlsym(RTLD_NEXT, "dlopen");
-    const char *word = getenv("FAIL_LIBRARY");
-    if (word && name && strstr(name, word)) return real("/nowhere/lost.so", flags);
+    const char *words = getenv("FAIL_LIBRARY");
+    while (words && *words && name) {
+        char word[64] = "";
+        const size_t length = strcspn(words, ",");
+        strncpy(word, words, length < sizeof word ? length : sizeof word - 1);
+        if (strstr(name, word)) return real("/nowhere/lost.so", flags);
+        words += length + (words[length] == ',');
+    }
     return real(name, flags);
 }

@@ -53,6 +53,7 @@ ROOMS = {
         "overlay": {"draw2d", "element", "marks", "plates"},
         "background": {"blend", "gl", "tile", "view"},
         "balls": {"background", "blend", "gl", "runs", "tile", "view"},
+        "layers": {"balls", "runs", "view"},
         "picture": {"background", "balls", "blend", "draw2d", "element", "gl", "overlay", "runs",
                     "tile", "view"},
     },
@@ -69,6 +70,8 @@ LIBRARY_HOME = {
     r"cairo|freetype/": {"render"},
     r"png\.h": {"media"},
     r"lib(av|sw)\w+/": {"media"},
+    r"(?i)openexr": {"media"},
+    r"libdeflate\.h": {"media"},
     r"CLI/": {"cli"},
     r"xxhash\.h": {"motion"},
 }

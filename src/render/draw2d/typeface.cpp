@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <string>
 
 #include "core/failure.h"
 #include "render/draw2d/embedded_font.h"
@@ -114,6 +115,8 @@ class Typeface::Impl {
         em_per_unit_ = 1.0 / face->units_per_EM;
     }
 
+    std::string name() const { return fmt::format("{} {}", face_->family_name, face_->style_name); }
+
     const Glyph& glyph(char32_t character) {
         const std::lock_guard lock(mutex_);
         const auto [known, is_new] = glyphs_.try_emplace(character);
@@ -152,6 +155,7 @@ class Typeface::Impl {
 Typeface::Typeface() : impl_(std::make_unique<Impl>()) {}
 Typeface::~Typeface() = default;
 const Glyph& Typeface::glyph(char32_t character) const { return impl_->glyph(character); }
+std::string Typeface::name() const { return impl_->name(); }
 
 const Typeface& overlay_typeface() {
     static const Typeface typeface;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,9 @@ class Typeface {
     /// Stays as long as the typeface. A character that the font lacks is its box with a cross; one
     /// that Unicode wants to be ignored where it is not known is nothing. Safe from any thread.
     const Glyph& glyph(char32_t character) const;
+
+    /// Family and style by the font's own name table.
+    std::string name() const;
 
   private:
     class Impl;

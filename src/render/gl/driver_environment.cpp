@@ -34,6 +34,7 @@ constexpr std::array kForeign = {"MESA_GL_VERSION_OVERRIDE",
                                  "MESA_GLES_VERSION_OVERRIDE",
                                  "MESA_GLSL_VERSION_OVERRIDE",
                                  "MESA_EXTENSION_OVERRIDE",
+                                 "MESA_LOADER_DRIVER_OVERRIDE",
                                  "MESA_DEBUG",
                                  "LP_PERF"};
 
@@ -80,6 +81,9 @@ void set_driver_environment(bool quick_compile) {
                       "GALLIUM_DRIVER=softpipe: its pixels differ from llvmpipe's, with which "
                       "carom draws; unset GALLIUM_DRIVER");
     ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+    // EGL asks for a GPU first: it draws only where the user says so, since its pixels are others.
+    ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // what fails is said by our own message
     for (const char* name : kForeign) ::unsetenv(name);
     if (std::getenv("LP_NUM_THREADS") == nullptr) {
         const unsigned cores = std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
@@ -88,6 +92,17 @@ void set_driver_environment(bool quick_compile) {
     }
     // llvmpipe leaves out optimization: a quarter of a still's time. A setting of the user's stays.
     if (quick_compile) ::setenv("GALLIVM_PERF", "nopt", 0);
+}
+
+std::string why_refused(std::string_view renderer) {
+    constexpr std::array kRefused = {"softpipe", "Software Rasterizer"};  // the latter: swrast
+    for (const char* refused : kRefused)
+        if (renderer.find(refused) != std::string_view::npos)
+            return fmt::format(
+                "the driver is {}, whose pixels differ from llvmpipe's, with which carom draws; "
+                "install a Mesa that has llvmpipe (package libgl1-mesa-dri or libosmesa6)",
+                renderer);
+    return "";
 }
 
 void check_driver_threads() {

@@ -1,8 +1,8 @@
 // OpenGL 3.3 core as carom uses it: a table of entry points, and move-only owners of its objects
 // (programs: gl_program.h).
 //
-// The table is filled through a loader of the back end (OSMesaGetProcAddress today; EGL has one of
-// the same shape), because no loader library works under OSMesa. Everything here belongs to one
+// The table is filled through a loader of the back end (OSMesaGetProcAddress, eglGetProcAddress),
+// because no loader library works under OSMesa. Everything here belongs to one
 // context and must be used and destroyed while that context is current; the table must outlive the
 // owners. A failed compilation, link or framebuffer is Failure(kRun) with the driver's own text.
 #pragma once
@@ -15,6 +15,9 @@
 #include <vector>
 
 namespace carom {
+
+/// The version that is asked for and needed: softer drivers, EGL and GPUs have it too.
+inline constexpr int kGlMajor = 3, kGlMinor = 3;
 
 // clang-format off
 /// Every entry point that carom calls: X(type of the pointer, name without "gl").

@@ -2,28 +2,26 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <atomic>
 #include <exception>
 #include <system_error>
 
 #include "core/failure.h"
+#include "render/gl/backend.h"
 #include "render/gl/driver_environment.h"
-#include "render/gl/osmesa_table.h"
 
 #ifdef __SANITIZE_ADDRESS__
-// OSMesa (22.3) keeps what describes the contexts' buffers when it destroys the contexts. There is
-// one such hook per program.
+// OSMesa (22.3) keeps what describes the contexts' buffers when it destroys the contexts, and EGL
+// its display. There is one such hook per program.
 extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:libOSMesa\nleak:libEGL\nleak:swrast_dri\nleak:libgallium\n";
+}
 #endif
 
 namespace carom {
 
 namespace {
-
-constexpr int kDummyEdge = 16;  ///< pixels; OSMesa wants some memory, no drawing goes there
-constexpr int kMajor = 3, kMinor = 3;
 
 std::atomic<bool> quick_compile = false;
 
@@ -36,67 +34,36 @@ std::string text_of(const Gl& gl, GLenum what) {
 
 class OffscreenContext::Impl {
   public:
-    explicit Impl(OSMesaContext sharing) {
-        if (sharing == nullptr) {
-            osmesa();  // a loader reads the environment as well
-            set_driver_environment(quick_compile);
-        }
-        const std::array<int, 9> attributes = {OSMESA_FORMAT,
-                                               OSMESA_RGBA,
-                                               OSMESA_PROFILE,
-                                               OSMESA_CORE_PROFILE,
-                                               OSMESA_CONTEXT_MAJOR_VERSION,
-                                               kMajor,
-                                               OSMESA_CONTEXT_MINOR_VERSION,
-                                               kMinor,
-                                               0};
-        context_ = osmesa().OSMesaCreateContextAttribs(attributes.data(), sharing);
-        if (context_ == nullptr)
-            throw Failure(FailureKind::kRun,
-                          fmt::format("OSMesa gives no OpenGL {}.{} core context", kMajor, kMinor));
-        try {
-            make_current();
-            gl_ = Gl::load(osmesa().OSMesaGetProcAddress);
-            check_version();
-            check_driver_threads();
-        } catch (...) {
-            osmesa().OSMesaDestroyContext(context_);
-            throw;
-        }
-    }
-    ~Impl() { osmesa().OSMesaDestroyContext(context_); }
-    Impl(const Impl&) = delete;
-    Impl& operator=(const Impl&) = delete;
-
-    void make_current() {
-        if (osmesa().OSMesaGetCurrentContext() == context_) return;
-        if (osmesa().OSMesaMakeCurrent(context_, dummy_.data(), GL_UNSIGNED_BYTE, kDummyEdge,
-                                       kDummyEdge) != GL_TRUE)
-            throw Failure(FailureKind::kRun, "OSMesa cannot make its context current");
+    explicit Impl(const GlContext* sharing) {
+        const GlBackend& backend = gl_backend();  // a loader reads the environment as well
+        if (sharing == nullptr) set_driver_environment(quick_compile);
+        context_ = backend.make_context(sharing);
+        make_current();
+        gl_ = Gl::load(backend.loader());
+        check_version();
+        if (const std::string why = why_refused(text_of(gl_, GL_RENDERER)); !why.empty())
+            throw Failure(FailureKind::kRun, why);
+        check_driver_threads();
     }
 
-    void release() {
-        if (osmesa().OSMesaGetCurrentContext() == context_)
-            osmesa().OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
-    }
-
+    void make_current() { context_->make_current(); }
+    void release() { context_->release(); }
     const Gl& gl() const { return gl_; }
-    OSMesaContext context() const { return context_; }
+    const GlContext* context() const { return context_.get(); }
 
   private:
-    // OSMesaGetProcAddress returns a pointer for names that do not exist: only the version tells.
+    // A back end may return a pointer for names that do not exist: only the version tells.
     void check_version() const {
         GLint major = 0, minor = 0;
         gl_.GetIntegerv(GL_MAJOR_VERSION, &major);
         gl_.GetIntegerv(GL_MINOR_VERSION, &minor);
-        if (major > kMajor || (major == kMajor && minor >= kMinor)) return;
+        if (major > kGlMajor || (major == kGlMajor && minor >= kGlMinor)) return;
         throw Failure(FailureKind::kRun,
-                      fmt::format("OpenGL {}.{} is needed, but the driver has \"{}\"", kMajor,
-                                  kMinor, text_of(gl_, GL_VERSION)));
+                      fmt::format("OpenGL {}.{} is needed, but the driver has \"{}\"", kGlMajor,
+                                  kGlMinor, text_of(gl_, GL_VERSION)));
     }
 
-    OSMesaContext context_ = nullptr;
-    std::array<unsigned char, kDummyEdge * kDummyEdge * 4> dummy_{};
+    std::unique_ptr<GlContext> context_;
     Gl gl_;
 };
 
@@ -106,7 +73,7 @@ DriverPreload::DriverPreload() {
     try {
         thread_ = std::jthread([] {
             try {
-                osmesa();
+                gl_backend();
             } catch (const std::exception&) {
                 // The first context says it.
             }
@@ -127,7 +94,8 @@ void OffscreenContext::make_current() { impl_->make_current(); }
 void OffscreenContext::release() { impl_->release(); }
 const Gl& OffscreenContext::gl() const { return impl_->gl(); }
 std::string OffscreenContext::renderer() const {
-    return text_of(gl(), GL_RENDERER) + ", " + text_of(gl(), GL_VERSION);
+    return fmt::format("{}, {}, {}", text_of(gl(), GL_RENDERER), text_of(gl(), GL_VERSION),
+                       gl_backend().name());
 }
 
 }  // namespace carom

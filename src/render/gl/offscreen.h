@@ -1,5 +1,5 @@
-// An OpenGL context without a display, through OSMesa (Mesa's off-screen library, here on
-// llvmpipe).
+// An OpenGL context without a display, through the back end that the process has chosen
+// (backend.h).
 #pragma once
 
 #include <memory>
@@ -26,14 +26,14 @@ class DriverPreload {
     std::jthread thread_;
 };
 
-/// Owns one context of OpenGL 3.3 core. OSMesa draws into memory of the caller; carom draws into
-/// its own framebuffer objects instead, so that memory is a 16 x 16 dummy.
+/// Owns one context of OpenGL 3.3 core, which has no framebuffer that is of use: carom draws into
+/// its own framebuffer objects.
 /// One thread at a time; whoever hands it to another thread, or leaves it to be destroyed there,
 /// releases it first. Several contexts may live in one process.
 class OffscreenContext {
   public:
-    /// Failure(kRun) if there is no context, its version is below 3.3, or an entry point is
-    /// missing.
+    /// Failure(kRun) if there is no context, its version is below 3.3, its driver is one whose
+    /// pixels differ (why_refused()), or an entry point is missing.
     OffscreenContext();
     /// Shares textures, buffers and programs of the other, for use in another thread; vertex arrays
     /// and framebuffers are its own. What one has drawn the other sees after glFinish.
@@ -47,7 +47,7 @@ class OffscreenContext {
     /// No context is current in this thread any more.
     void release();
     const Gl& gl() const;
-    /// For example "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
+    /// For example "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6, OSMesa".
     std::string renderer() const;
 
   private:

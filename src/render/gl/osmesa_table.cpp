@@ -8,7 +8,7 @@ namespace {
 
 OsMesa load() {
     // As its interface is numbered since Mesa 7.
-    const SharedLibrary library("libOSMesa.so.8", "pictures need OSMesa");
+    const SharedLibrary library("libOSMesa.so.8", "pictures need OSMesa (package libosmesa6)");
     OsMesa table;
 #define CAROM_OSMESA_FIND(name) library.find(table.name, #name);
     CAROM_OSMESA_FUNCTIONS(CAROM_OSMESA_FIND)

@@ -109,7 +109,8 @@ LabelsElement::LabelsElement(const Scene& scene, const Motion& motion, const Vie
       font_(letters_px(scene.overlay.labels->size_px, view.height_px())),
       halo_px_(0.2 * font_.size_px()),
       gap_px_(0.15 * font_.size_px()),
-      pictures_(scene.balls.size()) {
+      pictures_(scene.balls.size()),
+      rises_([this](double film_s) { return ways_up(film_s); }) {
     const double border = std::ceil(halo_px_);
     height_px_ =
         static_cast<int>(std::ceil(font_.cap_height_px() + font_.descent_px() + 2 * border));
@@ -223,9 +224,44 @@ std::vector<LabelWish> LabelsElement::spread_wishes(double t) const {
     return wanted;
 }
 
+std::vector<double> LabelsElement::ways_up(double film_s) const {
+    const double t = motion_time(scene_.film, film_s);
+    std::vector<double> ways(widths_px_.size(), 0.0);
+    if (t < 0 || t > motion_.duration) return ways;  // nothing lasts beyond the motion
+    // Under a camera that moves all is asked again for each picture, and neighbours are left out.
+    const std::vector<LabelWish> wanted = view_moves_ ? wishes(t) : spread_wishes(t);
+    std::vector<BallDisc> discs(wanted.size());
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const View::Projected center = view_.project(motion_.balls[i].at(t).position);
+        discs[i] = {Vec2(center.x_px, center.y_px),
+                    scene_.balls[i].radius * view_.pixels_per_metre(center.depth_m),
+                    wanted[i].in_picture};
+    }
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        const LabelWish& wish = wanted[i];
+        if (wish.in_picture)
+            ways[i] =
+                rise_over_balls({wish.center_x - 0.5 * wish.width, wish.center_x + 0.5 * wish.width,
+                                 wish.bottom_y, static_cast<double>(wish.height)},
+                                i, discs);
+    }
+    return ways;
+}
+
 std::vector<std::optional<LabelPlace>> LabelsElement::place(
     double t, const std::vector<PixelRect>& obstacles) const {
-    auto places = place_labels(spread_wishes(t), view_.width_px(), view_.height_px(), obstacles);
+    std::vector<LabelWish> wanted = spread_wishes(t);
+    constexpr std::size_t kMany = 200;  // beyond, names are noise, and each pair would be asked
+    std::vector<double> opacities(wanted.size(), 1.0);
+    if (wanted.size() > 1 && wanted.size() <= kMany) {
+        const std::vector<double> rises = rises_.at(film_time(scene_.film, t));
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            opacities[i] = opacity_of_risen(rises[i], wanted[i].height);
+            wanted[i].bottom_y -= rises[i];
+            wanted[i].in_picture &= opacities[i] > 0;
+        }
+    }
+    auto places = place_labels(wanted, view_.width_px(), view_.height_px(), obstacles);
     // What counts for the line is the distance from the ball, however the label came there.
     const std::vector<LabelWish> balls = wishes(t);
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -233,6 +269,7 @@ std::vector<std::optional<LabelPlace>> LabelsElement::place(
         const PixelRect& rect = places[i]->rect;
         const double aside = std::abs(rect.middle_x() - balls[i].center_x);
         const double aloft = std::abs(rect.bottom - balls[i].bottom_y);
+        places[i]->opacity = opacities[i];
         places[i]->away = aside > 0.6 * rect.width() || aloft > 0.8 * rect.height();
     }
     return places;
@@ -240,31 +277,50 @@ std::vector<std::optional<LabelPlace>> LabelsElement::place(
 
 void LabelsElement::set_view(const View& view, const std::vector<PixelRect>& /*around*/) {
     view_ = view;
+    view_moves_ = true;
+    rises_.forget();
+}
+
+void LabelsElement::draw_lines(const std::vector<std::optional<LabelPlace>>& places,
+                               const std::vector<LabelWish>& balls, Image& picture) const {
+    std::optional<Canvas> canvas;
+    const auto stroke = [&](double opacity) {
+        canvas->use(with_alpha(palette_.ink, 0.55 * opacity));
+        cairo_set_line_width(canvas->context(), std::max(1.0, overlay_px(1, view_.height_px())));
+        cairo_stroke(canvas->context());
+    };
+    for (const bool faded : {false, true}) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (!places[i] || !places[i]->away || (places[i]->opacity < 1) != faded) continue;
+            if (!canvas) canvas.emplace(picture);
+            // The shortest way from the ball's top to the label.
+            const PixelRect& rect = places[i]->rect;
+            const double x = balls[i].center_x, y = balls[i].bottom_y + gap_px_;
+            cairo_move_to(canvas->context(), std::clamp(x, double(rect.left), double(rect.right)),
+                          std::clamp(y, rect.top + gap_px_, rect.bottom - gap_px_));
+            cairo_line_to(canvas->context(), x, y);
+            if (faded) stroke(places[i]->opacity);
+        }
+        if (canvas && !faded) stroke(1);
+    }
+    if (canvas) canvas->finish();
 }
 
 void LabelsElement::draw(double t, Image& picture) {
-    const std::vector<LabelWish> wanted = wishes(t);
     const auto places = place(t, taken_);
-    // Lines first, so that names stay legible above them.
-    std::optional<Canvas> canvas;
+    draw_lines(places, wishes(t), picture);  // first, so that names stay legible above them
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!places[i] || !places[i]->away) continue;
-        if (!canvas) canvas.emplace(picture);
-        // The shortest way from the ball's top to the label.
+        if (!places[i]) continue;
         const PixelRect& rect = places[i]->rect;
-        const double x = wanted[i].center_x, y = wanted[i].bottom_y + gap_px_;
-        cairo_move_to(canvas->context(), std::clamp(x, double(rect.left), double(rect.right)),
-                      std::clamp(y, rect.top + gap_px_, rect.bottom - gap_px_));
-        cairo_line_to(canvas->context(), x, y);
+        if (places[i]->opacity < 1) {
+            Image faded = picture_of(i);
+            for (std::uint8_t& byte : faded.bgra)
+                byte = static_cast<std::uint8_t>(std::lround(places[i]->opacity * byte));
+            lay_over(faded, rect.left, rect.top, picture);
+        } else {
+            lay_over(picture_of(i), rect.left, rect.top, picture);
+        }
     }
-    if (canvas) {
-        canvas->use(with_alpha(palette_.ink, 0.55));
-        cairo_set_line_width(canvas->context(), std::max(1.0, overlay_px(1, view_.height_px())));
-        cairo_stroke(canvas->context());
-        canvas->finish();
-    }
-    for (std::size_t i = 0; i < places.size(); ++i)
-        if (places[i]) lay_over(picture_of(i), places[i]->rect.left, places[i]->rect.top, picture);
 }
 
 ElementKind labels_kind() {

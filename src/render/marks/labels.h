@@ -12,6 +12,7 @@
 #include "render/draw2d/font.h"
 #include "render/draw2d/style.h"
 #include "render/element/element.h"
+#include "render/marks/label_rise.h"
 #include "render/view/camera.h"
 #include "scene/scene.h"
 
@@ -28,7 +29,8 @@ struct LabelWish {
 /// Where it is; nothing if there is no room for it.
 struct LabelPlace {
     PixelRect rect;
-    bool away = false;  ///< far enough from its ball to need a line to it
+    bool away = false;   ///< far enough from its ball to need a line to it
+    double opacity = 1;  ///< less where it is about to be dropped
 };
 
 /// Moves labels apart to the left and right as far as `close` asks: close(i, j), i < j, is 1 for a
@@ -42,9 +44,11 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelWish>
                                                     int width_px, int height_px,
                                                     const std::vector<PixelRect>& obstacles);
 
-/// A label stays above its ball. Where two come level with each other, or will within half a second
-/// of film, or did, they make room to the sides: as the motion is known for all times, a label
-/// moves before it must, and does not jump. All of it depends on t alone, not on the frames before.
+/// A label stays above its ball, and above other balls that would lie below it for longer than a
+/// moment (label_rise.h); where that is too far from its own, it fades and is dropped. Where two
+/// come level with each other, or will within half a second of film, or did, they make room to the
+/// sides: as the motion is known for all times, a label moves before it must, and does not jump.
+/// All of it depends on t alone, not on the frames before.
 class LabelsElement : public Element {
   public:
     /// `scene`, `motion` must outlive it. Labels stay clear of what is `taken`.
@@ -63,12 +67,17 @@ class LabelsElement : public Element {
     const Image& picture_of(std::size_t ball) const;
     std::vector<LabelWish> wishes(double t) const;  ///< above the balls
     std::vector<LabelWish> spread_wishes(double t) const;
+    void draw_lines(const std::vector<std::optional<LabelPlace>>& places,
+                    const std::vector<LabelWish>& balls, Image& picture) const;
+    /// How far each has to rise over other balls, at an instant of the film.
+    std::vector<double> ways_up(double film_s) const;
     /// How level each pair of labels is around t, for spread_labels().
     Eigen::MatrixXd closeness(double t) const;
 
     const Scene& scene_;
     const Motion& motion_;
     View view_;
+    bool view_moves_ = false;
     std::vector<PixelRect> taken_;
     Palette palette_;
     Font font_;
@@ -77,6 +86,7 @@ class LabelsElement : public Element {
     int height_px_ = 0;           ///< of each picture
     std::vector<int> widths_px_;  ///< per ball
     mutable std::vector<Image> pictures_;
+    mutable LabelRises rises_;
 };
 
 ElementKind labels_kind();

@@ -1,0 +1,35 @@
+#include "media/openexr_table.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "core/shared_library.h"
+
+namespace carom {
+
+namespace {
+
+OpenExr load() {
+    // "30.5.1": the first number is that of the interface.
+    const std::string version = OPENEXR_LIB_VERSION_STRING;
+    const SharedLibrary library(
+        fmt::format("libOpenEXRCore-{}_{}.so.{}", OPENEXR_VERSION_MAJOR, OPENEXR_VERSION_MINOR,
+                    version.substr(0, version.find('.'))),
+        fmt::format("EXR files need OpenEXR (package libopenexr-{}-{}-{})", OPENEXR_VERSION_MAJOR,
+                    OPENEXR_VERSION_MINOR, version.substr(0, version.find('.'))));
+    OpenExr table;
+#define CAROM_OPENEXR_FIND(name) library.find(table.name, #name);
+    CAROM_OPENEXR_FUNCTIONS(CAROM_OPENEXR_FIND)
+#undef CAROM_OPENEXR_FIND
+    return table;
+}
+
+}  // namespace
+
+const OpenExr& openexr() {
+    static const OpenExr table = load();
+    return table;
+}
+
+}  // namespace carom
