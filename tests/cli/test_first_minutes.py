@@ -171,7 +171,7 @@ class Completion(ProgramTest):
         self.assertEqual(["--progress", "--preset"], sorted(self.complete("render", "x.yaml", "--pr"), reverse=True))
         self.assertEqual(["plain"], self.complete("render", "--progress", "pl"))
         self.assertEqual(["plain"], self.complete("render", "--progress=pl"))
-        self.assertEqual({"auto", "bar", "plain", "none"}, set(self.complete("render", "--progress=")))
+        self.assertEqual({"auto", "bar", "plain", "none", "json"}, set(self.complete("render", "--progress=")))
         self.assertEqual({"b.yaml", "scene.yaml", "d e"}, set(self.complete("still", "")))
         self.assertEqual(["scene.yaml"], self.complete("golden", "check", "sc"))
         self.assertIn("c.txt", self.complete("still", "b.yaml", "-o", ""))
