@@ -15,6 +15,7 @@
 #include "cli/exit_codes.h"
 #include "cli/film_limits.h"
 #include "cli/film_plan.h"
+#include "cli/film_run.h"
 #include "cli/interrupt.h"
 #include "cli/kept_work.h"
 #include "cli/layer_options.h"
@@ -22,6 +23,7 @@
 #include "cli/outputs.h"
 #include "cli/resume.h"
 #include "cli/shown_simulation.h"
+#include "cli/sound_output.h"
 #include "cli/standard_error.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
@@ -38,23 +40,6 @@ namespace carom {
 
 namespace {
 
-struct RenderOptions {
-    std::string scene;
-    std::vector<std::string> outputs;
-    std::string format = "mp4";
-    std::string frames;
-    std::string chunk;
-    bool resume = false;
-    bool dry_run = false;
-    AgainstOptions against;
-    CommonOptions common;
-    EncodingOptions encoding;
-    LayerOptions layers;
-
-    /// --resume replaces what is not as it should be.
-    bool replaces() const { return common.overwrite || resume; }
-};
-
 FrameRanges wanted_frames(const RenderOptions& options, const Film& film, double duration) {
     const std::int64_t count = frame_count(film, duration);
     FrameRanges frames = FrameRanges::all(count);
@@ -62,129 +47,6 @@ FrameRanges wanted_frames(const RenderOptions& options, const Film& film, double
     if (!options.chunk.empty()) frames = parse_chunk(options.chunk, count);
     require_drawable(frames, film);
     return frames;
-}
-
-std::vector<OutputRequest> requests(const RenderOptions& options) {
-    std::vector<OutputRequest> result;
-    for (const std::string& path : options.outputs) result.push_back({path, options.format});
-    return result;
-}
-
-/// A film on its way into all its outputs.
-class Filming {
-  public:
-    /// `growing` is null where the motion is there.
-    Filming(const RenderOptions& options, const Interrupt& interrupt, const FilmSource& source,
-            GrowingMotion* growing)
-        : options_(options), interrupt_(interrupt), source_(source), growing_(growing) {}
-
-    void open() {
-        EncodingOptions encoding = options_.encoding;
-        encoding.existing = existing_of(options_.replaces());
-        for (const OutputRequest& output : requests(options_))
-            sinks_.push_back(open_output(output, source_, encoding));
-    }
-
-    /// Layers beside the frames, where they are wanted; all must outlive it.
-    void open_layers(const Scene& scene, const Motion& motion, const SecondRun* second);
-
-    /// Draws and writes all frames; throws Interrupted when it has kept what is playable.
-    void film(Painter& painter);
-
-    void add_to(Stats& stats) const {
-        for (const auto& sink : sinks_) stats.add_sink(sink->times());
-        if (layers_) stats.layers_cpu_s = layers_->cpu_s();
-    }
-
-  private:
-    bool has_film() const;
-    void draw_all(Painter& painter, KeptWork* kept);
-    void keep_partial() const;
-    void write_layers(std::int64_t frame, const Film& film);
-
-    const RenderOptions& options_;
-    const Interrupt& interrupt_;
-    const FilmSource& source_;
-    GrowingMotion* growing_;
-    std::vector<std::unique_ptr<FrameSink>> sinks_;
-    std::unique_ptr<LayerFiles> layers_;  ///< null: none are wanted
-    std::int64_t frame_count_ = 0;        ///< of the whole film
-    std::int64_t done_ = 0;
-};
-
-void Filming::open_layers(const Scene& scene, const Motion& motion, const SecondRun* second) {
-    if (!options_.layers.wanted()) return;
-    const std::vector<OutputRequest> outputs = requests(options_);
-    layers_ = std::make_unique<LayerFiles>(
-        scene, motion,
-        LayerSettings{scene.film.width_px, scene.film.height_px, options_.layers.kinds(), second},
-        layer_index_path(frames_for_layers(outputs), source_.frames, !options_.chunk.empty()),
-        options_.common.existing(), Durability::kUnsynced);
-    frame_count_ = frame_count(scene.film, motion.duration);
-}
-
-void Filming::write_layers(std::int64_t frame, const Film& film) {
-    const std::vector<OutputRequest> outputs = requests(options_);
-    layers_->write(sequence_path(frames_for_layers(outputs).path, frame), frame,
-                   instants_of_frame(film, frame, frame_count_));
-}
-
-void Filming::film(Painter& painter) {
-    // PNGs are whole or not there; half a film must be closed to be one, and layers want an index.
-    std::optional<KeptWork> kept;
-    if (has_film() || layers_) kept.emplace(interrupt_, [this] { keep_partial(); });
-    try {
-        draw_all(painter, kept ? &*kept : nullptr);
-    } catch (const Failure&) {
-        if (!interrupt_.requested()) throw;  // else it is the simulation that has stopped
-    }
-    if (done_ < source_.frames.size()) {
-        keep_partial();
-        throw Interrupted{};
-    }
-    for (const auto& sink : sinks_) sink->finish();
-    if (layers_) layers_->finish();
-}
-
-bool Filming::has_film() const {
-    const std::vector<OutputRequest> all = requests(options_);
-    return std::any_of(all.begin(), all.end(),
-                       [](const OutputRequest& output) { return output.is_film(); });
-}
-
-void Filming::draw_all(Painter& painter, KeptWork* kept) {
-    const Film& film = source_.scene.film;
-    Progress progress(options_.common.progress_mode(), interrupt_, kFilming, source_.frames.size(),
-                      1 / film.fps.per_second());
-    FilmingHooks hooks;
-    hooks.stops = [this] { return interrupt_.requested(); };
-    if (growing_ != nullptr)
-        hooks.await = [&](double t) {
-            growing_->wait_for(needed_for_picture(source_.scene, t),
-                               [&] { progress.update(static_cast<double>(done_)); });
-        };
-    if (kept != nullptr) hooks.run_drawing = [kept](const auto& draw) { kept->step(draw); };
-    FrameRanges::Iterator frame = source_.frames.begin();
-    hooks.written = [&](std::int64_t done) {
-        if (layers_) {
-            kept->step([&] { write_layers(*frame, film); });
-            layers_->add_to_index();
-        }
-        ++frame;
-        done_ = done;
-        progress.update(static_cast<double>(done));
-    };
-    film_frames(painter, film, source_.frames, sinks_, hooks);
-}
-
-/// Keeps what is playable and says how far it got.
-void Filming::keep_partial() const {
-    interrupt_.reached(fmt::format("after {} of {} frames", done_, source_.frames.size()));
-    interrupt_.say();
-    for (const auto& sink : sinks_)
-        if (const std::string kept = sink->keep_partial(); !kept.empty())
-            say("carom: kept {}\n", readable(kept));
-    if (layers_) layers_->finish();
 }
 
 std::string plan_text(const RenderOptions& options, const Scene& scene, const Motion& motion,
@@ -197,6 +59,7 @@ std::string plan_text(const RenderOptions& options, const Scene& scene, const Mo
     text += fmt::format("{} frames of {}x{} at {} frames/s{}\n", frames.size(), scene.film.width_px,
                         scene.film.height_px, scene.film.fps.per_second(), places);
     for (const std::string& path : options.outputs) text += fmt::format("-> {}\n", readable(path));
+    for (const std::string& path : options.sounds) text += fmt::format("-> {}\n", readable(path));
     const FilmNeeds needs = film_needs(requests(options), scene, options.encoding, frames.size());
     return text + needs_text(needs) + "\n";
 }
@@ -258,7 +121,8 @@ void say_findings(const RenderOptions& options, const Scene& scene, const Simula
     Stats::warn_of_unrest(result.report, options.common.quiet);
 }
 
-void say_end(const Stats& stats) {
+void say_end(const Stats& stats, const RenderOptions& options) {
+    if (options.outputs.empty()) return;
     if (stats.frames == 0) {
         say("carom: all {} frames are there\n", stats.frames_kept);
         return;
@@ -273,12 +137,24 @@ void say_end(const Stats& stats) {
 /// Why frames are drawn when the motion is known to its end; "" where they need not wait.
 std::string why_drawn_at_end(const RenderOptions& options, const FilmScenes& scenes) {
     if (options.dry_run) return "nothing is drawn";
+    if (!options.sounds.empty()) return "the loudest impact gives the level of all sound";
     if (options.layers.wanted()) return "layers are written with the frames";
     return why_whole_motion(scenes.scene, scenes.second.has_value());
 }
 
+void check_sounds_of(const RenderOptions& options) {
+    check_sounds(options.sounds, options.outputs, options.scene, options.common.overwrite);
+    const bool part = !options.frames.empty() || !options.chunk.empty() || options.resume;
+    if (part && !options.sounds.empty())
+        throw Failure(FailureKind::kInput,
+                      fmt::format("-o {}: sound is made of the whole film: leave out --frames, "
+                                  "--chunk and --resume",
+                                  options.sounds.front()));
+}
+
 int render(const RenderOptions& options, const Interrupt& interrupt) {
     Stats stats;
+    check_sounds_of(options);
     check_output_names(requests(options), {{"--stats", options.common.stats_path}},
                        {{"SCENE", options.scene}, {"--against", options.against.scene}});
     require_stats_writable(options.common);
@@ -340,8 +216,9 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (wanted.empty()) return nothing_to_do(options);
     if (options.resume) remove_leftovers(requests(options), wanted);
 
-    stats.frames = source.frames.size();
-    stats.frames_kept = wanted.size() - stats.frames;
+    write_sounds(options.sounds, *scene, motion, options.common.existing());
+    stats.frames = options.outputs.empty() ? 0 : source.frames.size();
+    stats.frames_kept = options.resume ? wanted.size() - stats.frames : 0;
     if (stats.frames > 0)
         film(options, interrupt, source, motion, growing ? &*growing : nullptr,
              second ? &second->run : nullptr, stats);
@@ -353,7 +230,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     }
     if (!options.common.stats_path.empty())
         write_stats(options.common, stats_json(stats, &simulated));
-    if (!options.common.quiet) say_end(stats);
+    if (!options.common.quiet) say_end(stats, options);
     return kExitDone;
 }
 
@@ -367,6 +244,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         "  carom render scene.yaml -o film.mp4\n"
         "  carom render scene.yaml -o frame_%05d.png --frames 0-99 --size 640x360\n"
         "  carom render scene.yaml -o - --format mkv | ffplay -\n"
+        "  carom render scene.yaml -o film.mp4 -o film.wav\n"
         "  carom render scene.yaml -o film.webm --set background=transparent --quality high\n");
     command->add_option("scene", options->scene, "Scene file, - for standard input")
         ->required()
@@ -375,8 +253,9 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->add_option(
             "-o,--output", options->outputs,
             fmt::format("A film, whose name ends in {}, a name with %05d.png for PNG frames, a "
-                        "folder (with / at its end if its name has a dot), or - for standard "
-                        "output (repeatable: all from the same drawing)",
+                        "folder (with / at its end if its name has a dot), - for standard output, "
+                        "or a name with .wav for the sound of the impacts (repeatable: all from "
+                        "the same drawing)",
                         film_extensions()))
         ->required()
         ->type_name("OUT")
@@ -414,7 +293,10 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_output_options(*command, options->common);
     add_talk_options(*command, options->common);
     command->callback([options, &run, &interrupt] {
-        run = [options, &interrupt] { return render(*options, interrupt); };
+        run = [options, &interrupt] {
+            options->sounds = take_sounds(options->outputs);
+            return render(*options, interrupt);
+        };
     });
 }
 
