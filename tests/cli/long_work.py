@@ -1,10 +1,13 @@
 """Work that would take minutes, and what it needs, for tests that end it."""
 
+import array
+import fcntl
 import os
 import pathlib
 import signal
 import struct
 import subprocess
+import termios
 import time
 import zlib
 
@@ -67,15 +70,27 @@ def watches_signals(pid):
 class LongWork:
     """A process that is in the midst of its work."""
 
-    def __init__(self, *arguments, busy_s=0.3, **keywords):
+    def __init__(self, *arguments, busy_s=0.3, has_written=False, **keywords):
+        """Busy once it has taken so much CPU time, or, if it `has_written`, once its standard output holds
+        something that nobody reads."""
         keywords.setdefault("stdin", subprocess.DEVNULL)
         keywords.setdefault("stdout", subprocess.PIPE)
         self.process = subprocess.Popen([CAROM, *map(str, arguments)], stderr=subprocess.PIPE, **keywords)
         self.busy_s = busy_s
+        self.has_written = has_written
+
+    def is_busy(self):
+        if not watches_signals(self.process.pid):
+            return False
+        if not self.has_written:
+            return (cpu_s(self.process.pid) or 0) >= self.busy_s
+        waiting = array.array("i", [0])
+        fcntl.ioctl(self.process.stdout, termios.FIONREAD, waiting)
+        return waiting[0] > 0
 
     def wait_until_busy(self):
-        pid, end = self.process.pid, time.monotonic() + 60
-        while not (watches_signals(pid) and (cpu_s(pid) or 0) >= self.busy_s):
+        end = time.monotonic() + 60
+        while not self.is_busy():
             if self.process.poll() is not None or time.monotonic() > end:
                 raise AssertionError(f"{self.process.args} ended before: {self.process.communicate()[1]}")
             time.sleep(0.01)

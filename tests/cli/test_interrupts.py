@@ -71,7 +71,7 @@ class Interrupts(ProgramTest):
 
     def test_a_reader_that_does_not_read_holds_nothing_up(self):
         self.assert_ends(LongWork("simulate", self.resting, "-o", "-", busy_s=0), [signal.SIGTERM], "")
-        self.assert_ends(LongWork("render", self.scene, "-o", "-", "--format", "png", "--fps", "20000", busy_s=0.05),
+        self.assert_ends(LongWork("render", self.scene, "-o", "-", "--format", "png", "--fps", "20000", has_written=True),
                          [signal.SIGTERM], "")
 
     def test_a_scene_that_does_not_come_holds_nothing_up(self):

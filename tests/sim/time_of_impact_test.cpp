@@ -87,6 +87,15 @@ void expect_good(const Tally& tally, const char* name) {
     EXPECT_LE(tally.worst, 2e-13);
 }
 
+/// Speeds that halving has left, 1e-80 of a pull that is none: it stays where it is.
+TEST(TimeOfImpact, WhatAllButLiesStillMeetsNothing) {
+    const Path path{Vec3(-1.4793942359241028, -1.4793942359663039, -1.479394235958539),
+                    Vec3(0, -1.7162190754680852e-87, -1.9053859328855673e-103),
+                    Vec3(0, 2.1175823681357508e-19, 7.6215437315422694e-100)};
+    const SphereShape sphere{Vec3(0.943745906692568, 1.1456224097128338, 0.0450298876335), 0.166};
+    EXPECT_EQ(impact_with_surface(path, 0.02, sphere, false, 0.25).state, ImpactState::kMiss);
+}
+
 TEST(TimeOfImpact, Plane) {
     const Vec3 n = Vec3(1, 2, 3).normalized();
     expect_good(shoot(PlaneShape{n, 0.3}, 0.3 * n, 1, 1), "plane");

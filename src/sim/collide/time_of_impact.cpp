@@ -180,6 +180,15 @@ std::array<int, 3> sides_of(const Path& p, const Vec3& half, double border) {
     return sides;
 }
 
+/// An iteration may not end where the coefficients of a gap lie further apart than doubles can
+/// tell, as of a ball that all but lies still: where it cannot come so far, it misses.
+TimeOfImpact unless_out_of_reach(const TimeOfImpact& found, const Path& path, double gap,
+                                 double horizon) {
+    if (found.state != ImpactState::kCapped) return found;
+    const double way = horizon * (path.velocity.norm() + 0.5 * horizon * path.acceleration.norm());
+    return gap > way ? TimeOfImpact{} : found;
+}
+
 }  // namespace
 
 TimeOfImpact impact_with_plane(const Path& ball, double radius, const PlaneShape& plane,
@@ -191,8 +200,9 @@ TimeOfImpact impact_with_plane(const Path& ball, double radius, const PlaneShape
 }
 
 TimeOfImpact impact_with_sphere(const Path& path, double distance, bool touching, double horizon) {
-    return first(
+    const TimeOfImpact found = first(
         crossings(squared_distance(path, distance), touching, horizon, 2 * distance * still(path)));
+    return unless_out_of_reach(found, path, path.position.norm() - distance, horizon);
 }
 
 TimeOfImpact impact_with_capsule(const Path& ball, double radius, const CapsuleShape& capsule,
@@ -305,8 +315,10 @@ TimeOfImpact impact_with(const PipeShape& pipe, const Path& ball, double radius,
 
 TimeOfImpact impact_with_surface(const Path& ball, double radius, const SurfaceShape& shape,
                                  bool touching, double horizon) {
-    return std::visit(
+    const TimeOfImpact found = std::visit(
         [&](const auto& s) { return impact_with(s, ball, radius, touching, horizon); }, shape);
+    if (found.state != ImpactState::kCapped) return found;
+    return unless_out_of_reach(found, ball, nearest_on(shape, ball.position, radius).gap, horizon);
 }
 
 }  // namespace carom
