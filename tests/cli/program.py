@@ -48,5 +48,18 @@ class ProgramTest(unittest.TestCase):
         """What stands in the folder, without the scene."""
         return sorted(p.name for p in self.folder.iterdir() if p != self.scene)
 
+    def assert_environment_changes_nothing(self, still, settings):
+        """The picture that the command writes is the same under each setting; softpipe is refused."""
+        right = run(*still, text=False)
+        self.assert_exit(0, right)
+        for setting in settings:
+            with self.subTest(setting=setting):
+                result = run(*still, text=False, env={**os.environ, **dict([setting.split("=", 1)])})
+                self.assertEqual(0, result.returncode, result.stderr)
+                self.assertEqual(right.stdout, result.stdout)
+        result = run(*still, text=False, env={**os.environ, "GALLIUM_DRIVER": "softpipe"})
+        self.assertEqual(1, result.returncode)
+        self.assertIn(b"softpipe: its pixels differ", result.stderr)
+
     def assert_exit(self, code, result):
         self.assertEqual(code, result.returncode, f"{result.args}\n{result.stdout}\n{result.stderr}")
