@@ -1,7 +1,6 @@
 """OSMesa and EGL: the same pixels from both, and what is said where one or both are missing."""
 
 import json
-import os
 import unittest
 
 from faults import FaultyTest
