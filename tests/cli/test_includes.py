@@ -21,8 +21,10 @@ MAY_INCLUDE = {
     "media": {"core"},
     "golden": {"core", "scene", "media"},
     "report": {"core", "geometry", "scene", "motion", "sim", "render", "media"},
+    "export": {"core", "geometry", "scene", "motion", "render", "media"},
     "api": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
-    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report"},
+    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report",
+            "export"},
 }
 
 # Folder -> its rooms -> the rooms that each may include, besides itself. What lies beside the rooms
@@ -50,6 +52,7 @@ ROOMS = {
         "tile": {"view"},
         "blend": {"gl", "tile"},
         "element": {"draw2d", "runs", "view"},
+        "texture": {"blend", "gl"},
         "marks": {"draw2d", "element", "runs", "view"},
         "plates": {"draw2d", "element", "runs", "view"},
         "overlay": {"draw2d", "element", "marks", "plates"},
@@ -75,6 +78,7 @@ LIBRARY_HOME = {
     r"(?i)openexr": {"media"},
     r"libdeflate\.h": {"media"},
     r"CLI/": {"cli"},
+    r"minizip/": {"export"},
     r"xxhash\.h": {"core"},
 }
 

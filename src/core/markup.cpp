@@ -1,4 +1,4 @@
-#include "golden/markup.h"
+#include "core/markup.h"
 
 #include <array>
 #include <cstdint>
