@@ -22,9 +22,10 @@ MAY_INCLUDE = {
     "golden": {"core", "scene", "media"},
     "report": {"core", "geometry", "scene", "motion", "sim", "render", "media"},
     "export": {"core", "geometry", "scene", "motion", "render", "media"},
+    "page": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report", "export"},
     "api": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
     "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report",
-            "export"},
+            "export", "page"},
 }
 
 # Folder -> its rooms -> the rooms that each may include, besides itself. What lies beside the rooms
@@ -79,6 +80,7 @@ LIBRARY_HOME = {
     r"libdeflate\.h": {"media"},
     r"CLI/": {"cli"},
     r"minizip/": {"export"},
+    r"zlib\.h": {"page"},
     r"xxhash\.h": {"core"},
 }
 

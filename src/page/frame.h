@@ -1,0 +1,28 @@
+// What all pages have: head, policy, style, the viewer.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "motion/motion.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// Up to the beginning of the body. The policy lets the page load nothing but what it holds itself,
+/// and run its own script and three.js alone, whatever a text in it may say. `connects` lets it ask
+/// the server that it comes from.
+std::string page_head(std::string_view title, bool connects = false);
+
+/// The player's elements, hidden until its script has begun.
+std::string viewer_elements(const Motion& motion);
+
+/// What the viewer needs, at the end of the body: motion, textures, three.js, its script.
+std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version);
+
+/// A text of several lines, with every line as escaped() has it.
+std::string escaped_lines(std::string_view text);
+
+std::string data_uri(std::string_view type, std::string_view bytes);
+
+}  // namespace carom
