@@ -1,6 +1,6 @@
 # Writes what a page holds into a source file: hashes as content security policies name them, and the
 # files' places for the assembler, which copies them.
-#   STYLE, SCRIPTS (a list), THREE, THREE_VERSION: what goes in; FOLDER: where it goes
+#   STYLE, OVERVIEW, SCRIPTS (a list), THREE, THREE_VERSION: what goes in; FOLDER: where it goes
 file(MAKE_DIRECTORY "${FOLDER}")
 set(script "")
 foreach(file IN LISTS SCRIPTS)
@@ -35,6 +35,7 @@ endfunction()
 
 hash_of("${STYLE}" style_hash)
 hash_of("${FOLDER}/viewer.js" script_hash)
+hash_of("${OVERVIEW}" overview_hash)
 hash_of("${THREE}" three_hash)
 # A file's place in the program, and the function that gives it.
 function(add_part name function path)
@@ -50,6 +51,7 @@ endfunction()
 set(text "#include \"page/embedded_files.h\"\n\n")
 add_part(style page_style "${STYLE}")
 add_part(script viewer_script "${FOLDER}/viewer.js")
+add_part(overview overview_script "${OVERVIEW}")
 add_part(three three_script "${FOLDER}/three.js.gz")
 string(APPEND text "namespace carom {\nstd::string_view three_version() { return \"${THREE_VERSION}\"; }\n}\n")
 file(WRITE "${FOLDER}/embedded_files.cpp" "${text}")

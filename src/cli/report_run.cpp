@@ -75,10 +75,11 @@ std::vector<double> strobe_instants(const Motion& motion, double start) {
 }
 
 void draw(const FilmScenes& scenes, const SimulationResult& result, const SecondRun* second,
-          const CommonOptions& options, const Interrupt& interrupt, ReportParts& parts) {
+          const CommonOptions& options, const ReportWishes& wishes, const Interrupt& interrupt,
+          ReportParts& parts) {
     const Film& film = scenes.scene.film;
     Painter painter(scenes.scene, result.motion, {film.width_px, film.height_px, second});
-    parts.film_mp4 = filmed(scenes, result.motion, painter, options, interrupt);
+    if (wishes.film) parts.film_mp4 = filmed(scenes, result.motion, painter, options, interrupt);
     const std::vector<double> instants = strobe_instants(result.motion, film.start);
     Image picture;
     painter.paint_strobe(instants, picture);
@@ -113,10 +114,14 @@ std::optional<ReportedRun> run_for_report(const std::string& path, const CommonO
     // An MP4 has no transparency; what would be transparent is the sky.
     scene.background = Background::kSky;
     if (scenes->second) scenes->second->background = Background::kSky;
+    if (Film& film = scene.film; wishes.width_px > 0 && film.width_px > wishes.width_px) {
+        film.height_px = std::max(1, film.height_px * wishes.width_px / film.width_px);
+        film.width_px = wishes.width_px;
+    }
     if (wishes.accuracy && scene.balls.empty())
         throw Failure(FailureKind::kInput,
                       fmt::format("{} has no balls: there is no motion to measure", path));
-    check_films({{"film.mp4", "mp4"}}, scene, {});
+    if (wishes.film) check_films({{"film.mp4", "mp4"}}, scene, {});
 
     ReportedRun run;
     run.result = simulate_shown(scene, interrupt, options.progress_mode());
@@ -130,7 +135,8 @@ std::optional<ReportedRun> run_for_report(const std::string& path, const CommonO
     run.parts.scene_text = scenes->text;
     run.parts.effects = run.result.report.effects;
     run.parts.versions = library_versions();
-    draw(*scenes, run.result, second ? &second->run : nullptr, options, interrupt, run.parts);
+    draw(*scenes, run.result, second ? &second->run : nullptr, options, wishes, interrupt,
+         run.parts);
     if (wishes.accuracy) run.parts.accuracy = measured(scene, wishes, options, interrupt);
     run.scene = std::move(scene);
     return run;

@@ -19,6 +19,8 @@ struct ReportedRun {
 };
 
 struct ReportWishes {
+    bool film = true;  ///< false: the picture alone
+    int width_px = 0;  ///< the largest of pictures; 0: the scene's
     bool accuracy = false;
     double budget_s = 5;  ///< CPU seconds of a row of it
 };

@@ -13,6 +13,7 @@ struct EmbeddedFile {
 
 EmbeddedFile page_style();
 EmbeddedFile viewer_script();
+EmbeddedFile overview_script();
 /// Compressed (gzip); the hash is that of the script itself.
 EmbeddedFile three_script();
 std::string_view three_version();

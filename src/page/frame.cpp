@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -58,17 +59,26 @@ std::string escaped_lines(std::string_view text) {
     return result;
 }
 
-std::string page_head(std::string_view title, bool connects) {
+std::string page_title(const Scene& scene) {
+    return scene.title.empty() ? std::filesystem::path(scene.file).filename().string()
+                               : scene.title;
+}
+
+std::string counted(std::size_t count, std::string_view of_one) {
+    return fmt::format("{} {}{}", count, of_one, count == 1 ? "" : "s");
+}
+
+std::string page_head(std::string_view title, const std::vector<std::string_view>& scripts) {
+    std::string allowed;
+    for (const std::string_view hash : scripts) allowed += fmt::format(" '{}'", hash);
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-        "media-src data:; style-src '{}'; script-src '{}' '{}'; {}base-uri 'none'; "
-        "form-action 'none'\">\n"
+        "media-src data:; style-src '{}'; script-src{}; base-uri 'none'; form-action 'none'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<link rel=\"icon\" "
         "href=\"data:,\">\n<title>{}</title>\n<style>{}</style></head>\n<body>\n",
-        page_style().hash, viewer_script().hash, three_script().hash,
-        connects ? "connect-src 'self'; " : "", escaped(title), page_style().text);
+        page_style().hash, allowed, escaped(title), page_style().text);
 }
 
 std::string viewer_elements(const Motion& motion) {
@@ -80,7 +90,7 @@ std::string viewer_elements(const Motion& motion) {
         "<p id=\"v-note\" class=\"soft\" role=\"status\" hidden></p>\n"
         "<section id=\"viewer\" aria-label=\"The motion in three dimensions\" hidden>\n"
         "<div class=\"stage\"><canvas id=\"v-canvas\" tabindex=\"0\" role=\"img\" "
-        "aria-label=\"{} balls in motion, in three dimensions. Keys: space plays, left and right "
+        "aria-label=\"{} in motion, in three dimensions. Keys: space plays, left and right "
         "go "
         "from impact to impact, a d w s turn, + and - zoom, c is the scene's camera.\"></canvas>"
         "<div id=\"v-labels\" aria-hidden=\"true\"></div></div>\n"
@@ -95,8 +105,9 @@ std::string viewer_elements(const Motion& motion) {
         "<div class=\"bar\">{}{}{}{}</div>\n<p id=\"v-event\" class=\"soft\"></p>\n"
         "<p class=\"soft\">Drag to turn; two fingers, or Ctrl and the wheel, zoom. Every instant "
         "is computed from the motion's own pieces, none is between two frames.</p>\n</section>\n",
-        motion.balls.size(), motion.duration, speeds, check_box("trails", "trails", true),
-        check_box("peaks", "peaks", true), check_box("arrows", "velocities", false),
+        counted(motion.balls.size(), "ball"), motion.duration, speeds,
+        check_box("trails", "trails", true), check_box("peaks", "peaks", true),
+        check_box("arrows", "velocities", false),
         check_box("names", "names", motion.balls.size() <= 12));
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "motion/motion.h"
 #include "scene/scene.h"
@@ -10,9 +11,14 @@
 namespace carom {
 
 /// Up to the beginning of the body. The policy lets the page load nothing but what it holds itself,
-/// and run its own script and three.js alone, whatever a text in it may say. `connects` lets it ask
-/// the server that it comes from.
-std::string page_head(std::string_view title, bool connects = false);
+/// and run the scripts of these hashes alone, whatever a text in it may say.
+std::string page_head(std::string_view title, const std::vector<std::string_view>& scripts);
+
+/// The scene's title, or the name of its file.
+std::string page_title(const Scene& scene);
+
+/// "1 ball", "2 balls".
+std::string counted(std::size_t count, std::string_view of_one);
 
 /// The player's elements, hidden until its script has begun.
 std::string viewer_elements(const Motion& motion);

@@ -14,7 +14,7 @@ namespace carom {
 
 namespace {
 
-constexpr double kWidth = 800, kHeight = 300, kLeft = 62, kRight = 786, kTop = 12, kBottom = 262;
+constexpr double kWidth = 480, kHeight = 250, kLeft = 50, kRight = 468, kTop = 10, kBottom = 210;
 constexpr double kFine = 1.5;  // px: what is shorter is drawn as a line
 
 /// Upwards: against gravity; along z without any.
@@ -84,15 +84,15 @@ std::string axes(const Frame& frame, const char* unit) {
             "text-anchor=\"end\">{:.6g}</text>\n",
             kLeft, y, kRight, kLeft - 6, y + 4, value);
     }
-    for (const double t : round_values(0, frame.end_s, 8))
+    for (const double t : round_values(0, frame.end_s, 6))
         text += fmt::format(
             "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}v5\"/><text x=\"{0:.1f}\" y=\"{2:.1f}\" "
             "text-anchor=\"middle\">{3:.6g}</text>\n",
             frame.x(t), kBottom, kBottom + 18, t);
     return text + fmt::format(
-                      "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">time, s</text>"
-                      "<text x=\"6\" y=\"{}\">{}</text>\n",
-                      kRight, kHeight - 4, kHeight - 4, unit);
+                      "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">time, s</text><text "
+                      "x=\"{}\" y=\"{}\">{}</text>\n",
+                      kRight, kHeight - 4, kLeft + 5, kTop + 12, unit);
 }
 
 struct PageCurve {

@@ -27,9 +27,10 @@ std::string head_of_page(const Scene& scene, const SimulationResult& result,
     const Motion& motion = result.motion;
     std::string text = fmt::format(
         "<a class=\"skip\" href=\"#film\">To film and pictures</a>\n<header><h1>{}</h1>\n<p "
-        "class=\"soft\">{} ball{}, {:.6g} s, {} impacts, {}</p>\n",
-        escaped(title), motion.balls.size(), motion.balls.size() == 1 ? "" : "s", motion.duration,
-        result.report.impacts, method_text(scene.simulation));
+        "class=\"soft\">{}, {:.6g} s, {}, {}</p>\n",
+        escaped(title), counted(motion.balls.size(), "ball"), motion.duration,
+        counted(static_cast<std::size_t>(result.report.impacts), "impact"),
+        method_text(scene.simulation));
     if (const auto verdict = judge_rebound(scene, motion))
         text += fmt::format("<p class=\"{}\">{}</p>\n", verdict->passes ? "good" : "bad",
                             escaped(verdict_text(scene, *verdict)));
@@ -46,11 +47,11 @@ std::string pictures(const Scene& scene, const Motion& motion, const ReportParts
                "preload=\"metadata\" "
                "width=\"{0}\" height=\"{1}\" src=\"{2}\"></video><figcaption>The film: {0} × {1}, "
                "{3:.6g} frames a second</figcaption></figure>\n<figure><img width=\"{0}\" "
-               "height=\"{1}\" alt=\"{4} balls at the instants {5}\" "
+               "height=\"{1}\" alt=\"{4} at the instants {5}\" "
                "src=\"{6}\"><figcaption>Instants {5}</figcaption></figure>\n</div>\n",
                film.width_px, film.height_px, data_uri("video/mp4", parts.film_mp4),
-               film.fps.per_second(), motion.balls.size(), escaped(parts.strobe_caption),
-               data_uri("image/png", parts.strobe_png));
+               film.fps.per_second(), counted(motion.balls.size(), "ball"),
+               escaped(parts.strobe_caption), data_uri("image/png", parts.strobe_png));
 }
 
 std::string plots(const Scene& scene, const Motion& motion) {
@@ -83,9 +84,10 @@ std::string origin(const Scene& scene, const SimulationResult& result, const Rep
 std::string report_page(const Scene& scene, const SimulationResult& result,
                         const ReportParts& parts) {
     const Motion& motion = result.motion;
-    const std::string title = scene.title.empty() ? scene.file : scene.title;
+    const std::string title = page_title(scene);
     const auto version = parts.versions.find("carom");
-    std::string page = page_head(title) + head_of_page(scene, result, title) + "<main>\n";
+    std::string page = page_head(title, {viewer_script().hash, three_script().hash}) +
+                       head_of_page(scene, result, title) + "<main>\n";
     page += viewer_elements(motion);
     page += pictures(scene, motion, parts);
     page += plots(scene, motion);

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/markup.h"
+#include "page/frame.h"
+#include "page/html_table.h"
 #include "report/closed_form.h"
 #include "sim/contact/restitution.h"
 
@@ -78,18 +80,18 @@ class Deviations {
     }
     bool empty() const { return impacts_.empty(); }
 
-    /// "time, s" and "height, relative" as cells.
-    std::string cells(const Event& event, const Peak* top) {
+    /// Of time [s] and height [relative], as cells; "" where there is nothing to compare with.
+    std::array<std::string, 2> cells(const Event& event, const Peak* top) {
         const auto ball = static_cast<std::size_t>(event.ball);
         const std::size_t k = count_[ball]++;
-        if (k >= impacts_[ball].size()) return "<td><td>";
+        if (k >= impacts_[ball].size()) return {};
         const Right& right = impacts_[ball][k];
         largest_s_ = std::max(largest_s_, std::abs(event.time - right.time));
-        std::string text = fmt::format("<td>{:.1e}", event.time - right.time);
-        if (top == nullptr || !(right.height > 0)) return text + "<td>";
+        std::string time = fmt::format("{:.1e}", event.time - right.time);
+        if (top == nullptr || !(right.height > 0)) return {time, ""};
         const double relative = top->height / right.height - 1;
         largest_ = std::max(largest_, std::abs(relative));
-        return text + fmt::format("<td>{:.1e}", relative + 0.0);
+        return {time, fmt::format("{:.1e}", relative + 0.0)};
     }
     double largest_s() const { return largest_s_; }
     double largest() const { return largest_; }
@@ -158,37 +160,43 @@ std::string bounce_table(const Scene& scene, const Motion& motion) {
     if (impacts.empty()) return "<p>Nothing meets anything.</p>\n";
     const std::vector<const Peak*> tops = tops_of(motion, impacts);
     Deviations off(closed_form_motion(scene, motion));
-    std::string rows;
     const std::size_t count = std::min(impacts.size(), kMostBounces);
+    std::vector<HtmlColumn> columns = {{"Time, s"},
+                                       {"Ball"},
+                                       {"Meets"},
+                                       {"Rises to, m", true},
+                                       {"Coefficient", true},
+                                       {"Approach, m/s", true}};
+    if (!off.empty())
+        for (const char* name : {"Time off, s", "Height off"}) columns.push_back({name, true});
+    HtmlTable table(
+        "bounces",
+        fmt::format("{}{}. A click on an instant shows it above.",
+                    counted(impacts.size(), "impact"),
+                    count < impacts.size() ? fmt::format(", the first {} are listed", count) : ""),
+        columns, true);
     for (std::size_t i = 0; i < count; ++i) {
         const Event& event = *impacts[i];
-        rows += fmt::format("<tr><td><button>{:.6f}</button><td>{}<td>{}<td>{}<td>{:.6g}<td>{:.4g}",
-                            event.time,
-                            escaped(motion.ball_names[static_cast<std::size_t>(event.ball)]),
-                            escaped(other_name(event, motion)),
-                            tops[i] != nullptr ? fmt::format("{:.6g}", tops[i]->height) : "",
-                            event.restitution, event.approach_speed);
-        if (!off.empty()) rows += off.cells(event, tops[i]);
-        rows += '\n';
+        std::vector<std::string> cells = {
+            fmt::format("<button type=\"button\">{:.6f}</button>", event.time),
+            escaped(motion.ball_names[static_cast<std::size_t>(event.ball)]),
+            escaped(other_name(event, motion)),
+            tops[i] != nullptr ? fmt::format("{:.6g}", tops[i]->height) : "",
+            fmt::format("{:.6g}", event.restitution),
+            fmt::format("{:.4g}", event.approach_speed)};
+        if (!off.empty())
+            for (std::string& cell : off.cells(event, tops[i])) cells.push_back(std::move(cell));
+        table.row(cells, false);
     }
-    std::string text =
+    const std::string about =
         off.empty()
             ? "<p class=\"soft\">This scene has no closed form to be held against: balls meet one "
               "another or several things, or friction or air acts.</p>\n"
             : fmt::format(
-                  "<p>Against the closed form, computed apart: impacts are off by at most "
+                  "<p>Against the closed form, computed apart, impacts are off by at most "
                   "{:.1e} s, heights by {:.1e} of themselves.</p>\n",
                   off.largest_s(), off.largest());
-    text += fmt::format(
-        "<div class=\"wide\" role=\"region\" aria-label=\"bounces\" tabindex=\"0\"><table "
-        "id=\"bounces\"><caption>{} impacts{}. A click on an instant shows it above.</caption>\n"
-        "<thead><tr><th scope=\"col\">Time, s<th scope=\"col\">Ball<th scope=\"col\">Meets<th "
-        "scope=\"col\">Rises to, m<th scope=\"col\">Coefficient<th scope=\"col\">Approach, m/s{}"
-        "</thead>\n<tbody>\n",
-        impacts.size(),
-        count < impacts.size() ? fmt::format(", of which the first {} are listed", count) : "",
-        off.empty() ? "" : "<th scope=\"col\">Time off, s<th scope=\"col\">Height off, relative");
-    return text + rows + "</tbody></table></div>\n";
+    return about + table.text();
 }
 
 std::string pair_table(const Scene& scene, const Motion& motion) {
@@ -206,55 +214,46 @@ std::string pair_table(const Scene& scene, const Motion& motion) {
         pair.high = std::max(pair.high, event->restitution);
     }
     if (met.empty()) return "";
-    std::string rows;
+    HtmlTable table("pairs-met", "Materials that met, with the coefficients of their impacts",
+                    {{"Pair"}, {"Impacts", true}, {"Coefficient", true}, {"Comes from"}});
     for (const auto& [pair, numbers] : met)
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{} and {}<td class=\"n\">{}<td class=\"n\">{}<td>{}\n",
-            name_of(scene.materials[static_cast<std::size_t>(pair[0])]),
-            name_of(scene.materials[static_cast<std::size_t>(pair[1])]), numbers.impacts,
-            range_text(numbers.low, numbers.high), source_text(scene, pair[0], pair[1]));
-    return "<table><caption>Materials that met, with the coefficients of their impacts</caption>\n"
-           "<thead><tr><th scope=\"col\">Pair<th scope=\"col\" class=\"n\">Impacts<th "
-           "scope=\"col\" class=\"n\">Coefficient<th scope=\"col\">Comes from</thead>\n<tbody>\n" +
-           rows + "</tbody></table>\n";
+        table.row({name_of(scene.materials[static_cast<std::size_t>(pair[0])]) + " and " +
+                       name_of(scene.materials[static_cast<std::size_t>(pair[1])]),
+                   fmt::format("{}", numbers.impacts), range_text(numbers.low, numbers.high),
+                   source_text(scene, pair[0], pair[1])});
+    return table.text();
 }
 
 std::string effect_table(const std::map<std::string, Effect>& effects) {
-    std::string rows;
+    HtmlTable table("parts", "Only what the scene needs is modelled and drawn",
+                    {{"Part"}, {"Modelled"}, {"Why"}});
     for (const bool on : {true, false})
         for (const auto& [name, effect] : effects)
-            if (effect.on == on)
-                rows += fmt::format("<tr><th scope=\"row\">{}<td>{}<td>{}\n", escaped(name),
-                                    on ? "yes" : "no", escaped(effect.why));
-    return "<table><caption>Only what the scene needs is modelled and drawn</caption>\n<thead><tr>"
-           "<th scope=\"col\">Part<th scope=\"col\">Modelled<th scope=\"col\">Why</thead>\n"
-           "<tbody>\n" +
-           rows + "</tbody></table>\n";
+            if (effect.on == on) table.row({escaped(name), on ? "yes" : "no", escaped(effect.why)});
+    return table.text();
 }
 
 std::string accuracy_table(const AccuracyReport& report) {
-    std::string rows;
+    HtmlTable table("errors",
+                    fmt::format("Errors against {} up to {:.6g} s; times are this machine's",
+                                report.closed_form ? "the closed form" : "the method exact",
+                                report.sensitivity.trusted_until_s),
+                    {{"Method"},
+                     {"Position, m", true},
+                     {"Over the extent", true},
+                     {"Impacts, s", true},
+                     {"CPU s a second", true},
+                     {"Impacts", true},
+                     {"Left out"}});
     for (const AccuracyRun& run : report.runs) {
-        rows += fmt::format("<tr><th scope=\"row\">{}", escaped(run.name()));
-        if (run.error)
-            rows += fmt::format(
-                "<td class=\"n\">{:.2e}<td class=\"n\">{:.2e}<td class=\"n\">{:.2e}",
-                run.error->position_m, run.error->position_relative, run.error->impact_time_s);
-        else
-            rows += fmt::format("<td colspan=\"3\">{}", escaped(run.missing));
-        rows += run.cpu_s_per_s > 0 ? fmt::format("<td class=\"n\">{:.2e}", run.cpu_s_per_s)
-                                    : std::string("<td>");
-        rows += fmt::format("<td class=\"n\">{}\n", run.impacts);
+        const auto number = [](double value) { return fmt::format("{:.2e}", value); };
+        table.row({escaped(run.name()), run.error ? number(run.error->position_m) : "",
+                   run.error ? number(run.error->position_relative) : "",
+                   run.error ? number(run.error->impact_time_s) : "",
+                   run.cpu_s_per_s > 0 ? number(run.cpu_s_per_s) : "",
+                   fmt::format("{}", run.impacts), escaped(run.missing)});
     }
-    return fmt::format(
-        "<p>{}</p>\n<table><caption>Errors against {} up to {:.6g} s; times are this machine's"
-        "</caption>\n<thead><tr><th scope=\"col\">Method<th scope=\"col\" class=\"n\">Position, m"
-        "<th scope=\"col\" class=\"n\">Over the extent<th scope=\"col\" class=\"n\">Impacts, s<th "
-        "scope=\"col\" class=\"n\">CPU s a second<th scope=\"col\" class=\"n\">Impacts</thead>\n"
-        "<tbody>\n{}</tbody></table>\n",
-        escaped(accuracy_summary(report)),
-        report.closed_form ? "the closed form" : "the method exact",
-        report.sensitivity.trusted_until_s, rows);
+    return "<p>" + escaped(accuracy_summary(report)) + "</p>\n" + table.text();
 }
 
 }  // namespace carom

@@ -16,6 +16,8 @@ carom.Viewer = class {
     this.eye = new carom.Eye(this.stage, canvas, () => this.draw());
     this.names = this.spans(Math.min(motion.balls.length, 40));
     this.heights = this.spans(8);
+    // Names would cover a small picture.
+    if (canvas.getBoundingClientRect().width < 600) this.element('names').checked = false;
     this.listen(canvas);
     const dark = matchMedia('(prefers-color-scheme: dark)');
     dark.addEventListener('change', () => this.draw());
@@ -49,7 +51,7 @@ carom.Viewer = class {
     this.rows = [...document.querySelectorAll('#bounces tbody tr')];
     this.rows.forEach((row, i) => row.querySelector('button').addEventListener('click', () => {
       this.play(false);
-      this.show(this.motion.impacts[Number(row.dataset.i || i)][0]);
+      this.show(this.motion.impacts[i][0]);
     }));
     this.cursors = [...document.querySelectorAll('svg[data-end]')].map((svg) => this.cursor(svg));
   }
