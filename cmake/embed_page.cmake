@@ -1,6 +1,6 @@
 # Writes what a page holds into a source file: hashes as content security policies name them, and the
 # files' places for the assembler, which copies them.
-#   STYLE, OVERVIEW, SCRIPTS (a list), THREE, THREE_VERSION: what goes in; FOLDER: where it goes
+#   STYLE, OVERVIEW, WATCH, LICENCE, SCRIPTS (a list), THREE, THREE_VERSION: what goes in; FOLDER: where it goes
 file(MAKE_DIRECTORY "${FOLDER}")
 set(script "")
 foreach(file IN LISTS SCRIPTS)
@@ -36,6 +36,7 @@ endfunction()
 hash_of("${STYLE}" style_hash)
 hash_of("${FOLDER}/viewer.js" script_hash)
 hash_of("${OVERVIEW}" overview_hash)
+hash_of("${WATCH}" watch_hash)
 hash_of("${THREE}" three_hash)
 # A file's place in the program, and the function that gives it.
 function(add_part name function path)
@@ -48,10 +49,13 @@ function(add_part name function path)
     "    return {{carom_page_${name}, carom_page_${name}_end}, \"${${name}_hash}\"};\n}\n}\n\n")
   set(text "${text}" PARENT_SCOPE)
 endfunction()
+file(READ "${LICENCE}" licence)
 set(text "#include \"page/embedded_files.h\"\n\n")
 add_part(style page_style "${STYLE}")
 add_part(script viewer_script "${FOLDER}/viewer.js")
 add_part(overview overview_script "${OVERVIEW}")
+add_part(watch watch_script "${WATCH}")
 add_part(three three_script "${FOLDER}/three.js.gz")
-string(APPEND text "namespace carom {\nstd::string_view three_version() { return \"${THREE_VERSION}\"; }\n}\n")
+string(APPEND text "namespace carom {\nstd::string_view three_version() { return \"${THREE_VERSION}\"; }\n"
+  "std::string_view three_licence() {\n    return R\"TEXT(${licence})TEXT\";\n}\n}\n")
 file(WRITE "${FOLDER}/embedded_files.cpp" "${text}")

@@ -55,11 +55,11 @@ std::string filmed(const FilmScenes& scenes, const Motion& motion, Painter& pain
     return bytes_of(output.path);
 }
 
-/// Instants over the part of the motion in which balls still rise to a tenth of what they do at
-/// first: later ones would cover each other.
+/// Instants over the part of the motion in which balls still rise to half of the highest top: later
+/// ones would cover each other.
 std::vector<double> strobe_instants(const Motion& motion, double start) {
     constexpr int kInstants = 16;
-    constexpr double kLively = 0.1;
+    constexpr double kLively = 0.5;
     double highest = 0, end = 0;
     for (const std::vector<Peak>& peaks : motion.peaks)
         for (const Peak& peak : peaks) highest = std::max(highest, peak.height);

@@ -14,8 +14,11 @@ struct EmbeddedFile {
 EmbeddedFile page_style();
 EmbeddedFile viewer_script();
 EmbeddedFile overview_script();
+EmbeddedFile watch_script();
 /// Compressed (gzip); the hash is that of the script itself.
 EmbeddedFile three_script();
 std::string_view three_version();
+/// To be in every page that has three.js.
+std::string_view three_licence();
 
 }  // namespace carom

@@ -68,17 +68,19 @@ std::string counted(std::size_t count, std::string_view of_one) {
     return fmt::format("{} {}{}", count, of_one, count == 1 ? "" : "s");
 }
 
-std::string page_head(std::string_view title, const std::vector<std::string_view>& scripts) {
+std::string page_head(std::string_view title, const std::vector<std::string_view>& scripts,
+                      bool connects) {
     std::string allowed;
     for (const std::string_view hash : scripts) allowed += fmt::format(" '{}'", hash);
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-        "media-src data:; style-src '{}'; script-src{}; base-uri 'none'; form-action 'none'\">\n"
+        "media-src data:; style-src '{}'; script-src{}; {}base-uri 'none'; form-action 'none'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<link rel=\"icon\" "
         "href=\"data:,\">\n<title>{}</title>\n<style>{}</style></head>\n<body>\n",
-        page_style().hash, allowed, escaped(title), page_style().text);
+        page_style().hash, allowed, connects ? "connect-src 'self'; " : "", escaped(title),
+        page_style().text);
 }
 
 std::string viewer_elements(const Motion& motion) {
@@ -114,7 +116,11 @@ std::string viewer_elements(const Motion& motion) {
 std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version) {
     std::string json;
     write_motion_json(scene, motion, version, [&](std::string_view part) { json += part; });
-    return packed("motion", gzip(json)) + packed("three", three_script().text) +
+    return fmt::format(
+               "<footer><details><summary>Licence of three.js</summary><pre>{}</pre>"
+               "</details></footer>\n",
+               escaped_lines(three_licence())) +
+           packed("motion", gzip(json)) + packed("three", three_script().text) +
            fmt::format(
                "<script type=\"application/json\" id=\"textures\">{}</script>\n"
                "<script>{}</script>\n",

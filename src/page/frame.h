@@ -11,8 +11,10 @@
 namespace carom {
 
 /// Up to the beginning of the body. The policy lets the page load nothing but what it holds itself,
-/// and run the scripts of these hashes alone, whatever a text in it may say.
-std::string page_head(std::string_view title, const std::vector<std::string_view>& scripts);
+/// and run the scripts of these hashes alone, whatever a text in it may say. `connects` lets it ask
+/// the server that it comes from.
+std::string page_head(std::string_view title, const std::vector<std::string_view>& scripts,
+                      bool connects = false);
 
 /// The scene's title, or the name of its file.
 std::string page_title(const Scene& scene);

@@ -91,8 +91,8 @@ std::string axes(const Frame& frame, const char* unit) {
             frame.x(t), kBottom, kBottom + 18, t);
     return text + fmt::format(
                       "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">time, s</text><text "
-                      "x=\"{}\" y=\"{}\">{}</text>\n",
-                      kRight, kHeight - 4, kLeft + 5, kTop + 12, unit);
+                      "x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n",
+                      kRight, kHeight - 4, kRight - 2, kTop + 12, unit);
 }
 
 struct PageCurve {

@@ -75,7 +75,7 @@ std::string origin(const Scene& scene, const SimulationResult& result, const Rep
     row("motion's hash", fmt::format("{:016x}", result.motion.hash()));
     row("renderer", parts.renderer);
     for (const auto& [name, version] : parts.versions) row(name, version);
-    row("three.js", std::string(three_version()) + ", MIT licence, © 2010-2019 three.js authors");
+    row("three.js", std::string(three_version()));
     return text + "</dl>\n";
 }
 

@@ -80,7 +80,8 @@ LIBRARY_HOME = {
     r"libdeflate\.h": {"media"},
     r"CLI/": {"cli"},
     r"minizip/": {"export"},
-    r"zlib\.h": {"page"},
+    r"event2/": {"cli"},
+    r"zlib\.h": {"media", "page"},
     r"xxhash\.h": {"core"},
 }
 
