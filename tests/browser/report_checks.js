@@ -16,7 +16,7 @@ const check = (what, ok, detail = '') => {
 
 // In the page: the middles of the balls' masks as the viewer draws them, flat and unshaded.
 const masks = async (t) => {
-  const {stage, eye, renderer} = carom.viewer, size = new THREE.Vector2();
+  const {stage, eye, renderer} = carom.viewer;
   carom.viewer.show(t);
   const kept = stage.balls.map((ball) => ball.material), background = stage.scene.background;
   const hidden = stage.scene.children.filter((child) => child.visible && !stage.balls.includes(child));
@@ -25,8 +25,7 @@ const masks = async (t) => {
   stage.balls.forEach((ball, i) => {
     ball.material = new THREE.MeshBasicMaterial({color: (i + 1) * 0x001100, fog: false});
   });
-  renderer.getDrawingBufferSize(size);
-  const target = new THREE.WebGLRenderTarget(1280, Math.round(1280 / eye.camera.aspect));
+  const target = new THREE.WebGLRenderTarget(1280, Math.round(1280 / stage.motion.camera.aspect));
   renderer.setRenderTarget(target);
   renderer.render(stage.scene, eye.camera);
   const bytes = new Uint8Array(4 * target.width * target.height);

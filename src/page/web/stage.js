@@ -236,8 +236,10 @@ carom.Stage = class {
   }
 
   add_peaks() {
-    const peaks = this.motion.balls.flatMap((ball) => ball.peaks.map(
-      ([time, height]) => ({ball, time, height, place: ball.position(time)})));
+    // Hops of less than a tenth of the radius cannot be seen.
+    const peaks = this.motion.balls.flatMap((ball) => ball.peaks
+      .filter(([, height]) => height >= 0.1 * ball.radius)
+      .map(([time, height]) => ({ball, time, height, place: ball.position(time)})));
     this.peaks = peaks.sort((a, b) => a.time - b.time);
     const points = [], colors = [];
     for (const {ball, place: [x, y, z]} of this.peaks) {
