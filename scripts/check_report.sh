@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Opens a page of `carom report` in headless Chromium: no word on the console, no request, balls where
 # `carom still` has them, the film plays, axe and html-validate find nothing; screenshots to look at.
+# And `carom view` beside an editor.
 #   scripts/check_report.sh [PROGRAM [FOLDER]]
 # PROGRAM: default build/release/carom. FOLDER: where screenshots stay, default out/report.
 # Skipped, saying why, where Chromium, node or npm's packages are not there.
@@ -40,3 +41,5 @@ echo "{\"stills\":[$list]}" >"$folder/stills.json"
 JSON
 echo "ok   html-validate"
 node tests/browser/report_checks.js "$browser" "$folder/report.html" "$folder" "$folder/stills.json"
+cp "$scene" "$folder/edited.yaml"
+node tests/browser/view_checks.js "$browser" "$program" "$folder/edited.yaml" "$folder"

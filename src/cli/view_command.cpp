@@ -2,12 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "cli/backend_option.h"
 #include "cli/commands.h"
@@ -60,13 +61,14 @@ class SceneWatch {
         if (now && now != shown_) {
             shown_ = now;
             const int revision = ++revision_;
-            server_.show(page(revision, stop), revision);
+            if (std::optional<std::string> made = page(revision, stop))
+                server_.show(std::move(*made), revision);
         }
         std::this_thread::sleep_for(kLook);
     }
 
-    /// A simulation ends where the scene is saved meanwhile, whose page comes next.
-    std::string page(int revision, const std::stop_token& stop) {
+    /// Empty where the scene was saved meanwhile, which ends the simulation: its page comes next.
+    std::optional<std::string> page(int revision, const std::stop_token& stop) {
         std::stop_source saved;
         const std::stop_callback ended(stop, [&] { saved.request_stop(); });
         try {
@@ -80,8 +82,9 @@ class SceneWatch {
                 if (const auto now = state_of(options_.scene); now && now != shown_)
                     saved.request_stop();
             });
-            return view_page(*read.scene, result, CAROM_VERSION, revision);
-        } catch (const Failure& failure) {
+            return view_page(*read.scene, result, CAROM_VERSION, revision, textures_);
+        } catch (const std::exception& failure) {
+            if (saved.stop_requested()) return std::nullopt;
             return wrong_scene_page(options_.scene, failure.what(), revision);
         }
     }
@@ -90,6 +93,7 @@ class SceneWatch {
     ViewServer& server_;
     std::optional<FileState> shown_;
     int revision_ = 0;
+    KnownTextures textures_;
     std::jthread thread_;  ///< last: it uses all of the above
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include "core/markup.h"
@@ -19,15 +18,18 @@ namespace carom {
 namespace {
 
 /// The pictures of the balls' markings, by their looks as the motion has them.
-std::string textures_json(const Scene& scene) {
+std::string textures_json(const Scene& scene, KnownTextures& known) {
     nlohmann::ordered_json textures = nlohmann::ordered_json::object();
     std::optional<BallTextures> painter;
     for (const Ball& ball : scene.balls) {
         const Look& look = scene.looks[static_cast<std::size_t>(ball.look)];
         const std::string key = look_json(look).dump();
         if (!has_markings(look) || textures.contains(key)) continue;
-        if (!painter) painter.emplace();
-        textures[key] = data_uri("image/png", encode_png(painter->draw(look), PngEffort::kSmall));
+        if (!known.contains(key)) {
+            if (!painter) painter.emplace();
+            known[key] = data_uri("image/png", encode_png(painter->draw(look), PngEffort::kSmall));
+        }
+        textures[key] = known[key];
     }
     return textures.dump();  // words, colours and base64: nothing that ends an element
 }
@@ -113,7 +115,8 @@ std::string viewer_elements(const Motion& motion) {
         check_box("names", "names", motion.balls.size() <= 12));
 }
 
-std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version) {
+std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version,
+                        KnownTextures& known) {
     std::string json;
     write_motion_json(scene, motion, version, [&](std::string_view part) { json += part; });
     return fmt::format(
@@ -124,7 +127,7 @@ std::string viewer_data(const Scene& scene, const Motion& motion, std::string_vi
            fmt::format(
                "<script type=\"application/json\" id=\"textures\">{}</script>\n"
                "<script>{}</script>\n",
-               textures_json(scene), viewer_script().text);
+               textures_json(scene, known), viewer_script().text);
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // What all pages have: head, policy, style, the viewer.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,13 @@ std::string counted(std::size_t count, std::string_view of_one);
 /// The player's elements, hidden until its script has begun.
 std::string viewer_elements(const Motion& motion);
 
-/// What the viewer needs, at the end of the body: motion, textures, three.js, its script.
-std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version);
+/// Pictures of balls' markings as URIs, by their looks as the motion's JSON has them.
+using KnownTextures = std::map<std::string, std::string>;
+
+/// What the viewer needs, at the end of the body: motion, textures, three.js, its script. What of
+/// the textures is not known is drawn, and known then.
+std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version,
+                        KnownTextures& known);
 
 /// A text of several lines, with every line as escaped() has it.
 std::string escaped_lines(std::string_view text);

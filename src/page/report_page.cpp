@@ -99,7 +99,9 @@ std::string report_page(const Scene& scene, const SimulationResult& result,
     page += heading("scene", "The scene") + "<pre tabindex=\"0\">" +
             escaped_lines(parts.scene_text) + "</pre>\n";
     page += origin(scene, result, parts) + "</main>\n";
-    page += viewer_data(scene, motion, version == parts.versions.end() ? "" : version->second);
+    KnownTextures textures;
+    page += viewer_data(scene, motion, version == parts.versions.end() ? "" : version->second,
+                        textures);
     return page + "</body></html>\n";
 }
 

@@ -6,7 +6,6 @@
 
 #include "core/markup.h"
 #include "page/embedded_files.h"
-#include "page/frame.h"
 #include "page/plots.h"
 #include "page/tables.h"
 
@@ -25,7 +24,7 @@ std::string watching(int revision) {
 }  // namespace
 
 std::string view_page(const Scene& scene, const SimulationResult& result,
-                      const std::string& version, int revision) {
+                      const std::string& version, int revision, KnownTextures& known) {
     const Motion& motion = result.motion;
     std::string page = page_head(
         page_title(scene), {viewer_script().hash, three_script().hash, watch_script().hash}, true);
@@ -34,7 +33,7 @@ std::string view_page(const Scene& scene, const SimulationResult& result,
     page += "<h2>Heights and energy</h2>\n<div class=\"two\">\n<figure>" +
             height_plot(scene, motion) + "</figure>\n<figure>" + energy_plot(scene, motion) +
             "</figure>\n</div>\n<h2>Bounces</h2>\n" + bounce_table(scene, motion) + "</main>\n";
-    return page + viewer_data(scene, motion, version) +
+    return page + viewer_data(scene, motion, version, known) +
            fmt::format("<script>{}</script>\n</body></html>\n", watch_script().text);
 }
 
