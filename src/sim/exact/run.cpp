@@ -85,6 +85,8 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
                    bool until_rest) {
     Standstill standstill;
     std::int64_t looked = 0;  // how much that takes long had been done
+    std::int64_t tapped = 0;  // events
+    const auto balls = static_cast<std::int64_t>(world_.balls.size());
     for (std::int64_t events = 0;; ++events) {
         const EventQueue::Entry first = queue_.first();
         const bool step = piles_.next_step() <= first.time;
@@ -121,9 +123,13 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         }
         const std::int64_t slow = log_.report.steps + log_.report.integrated + (step ? events : 0);
         if (slow == looked && events % kEventsPerLook != 0) continue;
+        const bool has_stepped = slow != looked;
         looked = slow;
         report_progress(stop, progress, next.time);
-        if (tap_) tap_(world_.log, log_.kept_events(), next.time);
+        // To take pieces costs something for each ball.
+        if (!tap_ || (!has_stepped && events - tapped < balls)) continue;
+        tapped = events;
+        tap_(world_.log, log_.kept_events(), next.time);
     }
 }
 
