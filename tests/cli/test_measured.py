@@ -25,6 +25,11 @@ class Measured(ProgramTest):
         self.assertGreaterEqual(len(module.ROWS), 10)
         self.assertEqual(module.table(os.environ["CAROM"]), self.page_between(module))
 
+    def test_the_tables_of_the_official_tests_are_what_the_command_makes(self):
+        module = load("official")
+        self.assertEqual(module.tables(os.environ["CAROM"]), self.page_between(module))
+        self.assertEqual({"air.svg", "rolling.svg", "speed.svg"}, {p.name for p in module.PLOTS.glob("*")})
+
     def test_every_scene_is_valid_and_in_the_table(self):
         module = load("measured")
         scenes = sorted((SOURCE / "scenes" / "measured").glob("*.yaml"))
