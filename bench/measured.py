@@ -26,7 +26,6 @@ STATCAST = "Statcast"
 ROWS = [
     *[("newton_globes", f"globe_{i}", "fall", 1, "s", seconds, 0.25, NEWTON)
       for i, seconds in enumerate((8.2, 7.7, 7.7, 7.95, 8.2, 7.7), 1)],
-    ("newton_globes", "quicksilver", "fall", 1, "s", 3.7, 0.25, NEWTON),
     ("golf_flights", "driver", "carry", 1 / YARD, "yd", 275, None, TRACKMAN),
     ("golf_flights", "driver", "apex", 1 / YARD, "yd", 32, None, TRACKMAN),
     ("golf_flights", "wood_3", "carry", 1 / YARD, "yd", 243, None, TRACKMAN),
@@ -37,8 +36,8 @@ ROWS = [
     ("baseball_flights", "stanton", "carry", 1 / FOOT, "ft", 462, None, f"{STATCAST}, Kagan 2016"),
     ("baseball_flights", "hard_hit", "carry", 1 / FOOT, "ft", 350, None, f"{STATCAST}, Tango 2024"),
     ("stimpmeter", "ball", "speed after 30 in", 1 / FOOT, "ft/s", 6.00, None, "USGA"),
-    ("golf_restitution", "viscoelastic_130", "restitution", 1, "", 0.797, None, "USGA"),
-    ("golf_restitution", "plastic_130", "restitution", 1, "", 0.797, None, "USGA"),
+    ("golf_restitution", "viscoelastic_130", "restitution", 1, "", 0.797, None, "USGA, by Wikipedia"),
+    ("golf_restitution", "plastic_130", "restitution", 1, "", 0.797, None, "USGA, by Wikipedia"),
     ("off_glass", "steep", "spin over rolling", 1, "", 1.0, None, "Rémond et al. 2023"),
     ("off_glass", "middle", "spin over rolling", 1, "", 1.0, None, "Rémond et al. 2023"),
 ]
