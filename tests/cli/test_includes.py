@@ -21,8 +21,9 @@ MAY_INCLUDE = {
     "media": {"core"},
     "golden": {"core", "scene", "media"},
     "report": {"core", "geometry", "scene", "motion", "sim", "render", "media"},
+    "sweep": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
     "api": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
-    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report"},
+    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report", "sweep"},
 }
 
 # Folder -> its rooms -> the rooms that each may include, besides itself. What lies beside the rooms
@@ -68,6 +69,8 @@ LIBRARY_HOME = {
     r"yaml-cpp/": {"scene"},
     r"ode/": {"sim"},
     r"boost/numeric/odeint/": {"sim"},
+    r"boost/math/": {"sweep"},
+    r"muParser": {"sweep"},
     r"(GL|EGL)/": {"render"},
     r"cairo|freetype/": {"render"},
     r"png\.h": {"media"},
