@@ -25,7 +25,7 @@ dd if=/dev/urandom of="$work/munge/key" bs=1 count=1024 status=none
 chmod 400 "$work/munge/key"
 user=$(id -un) host=$(hostname -s)
 munged --foreground --force --key-file="$work/munge/key" --socket="$work/munge/socket" --pid-file="$work/munge/pid" \
-    --seed-file="$work/munge/seed" --log-file="$work/munge/log" &
+    --seed-file="$work/munge/seed" --log-file="$work/munge/log" > "$work/munged.log" 2>&1 &
 pids+=($!)
 cat > "$work/slurm.conf" <<CONF
 ClusterName=carom
@@ -58,9 +58,9 @@ PartitionName=main Nodes=n1,n2 Default=YES State=UP
 CONF
 export SLURM_CONF=$work/slurm.conf
 sleep 1
-slurmctld -D -c -f "$SLURM_CONF" & pids+=($!)
-slurmd -D -N n1 -f "$SLURM_CONF" & pids+=($!)
-slurmd -D -N n2 -f "$SLURM_CONF" & pids+=($!)
+slurmctld -D -c -f "$SLURM_CONF" > "$work/ctld.out.log" 2>&1 & pids+=($!)
+slurmd -D -N n1 -f "$SLURM_CONF" > "$work/n1.out.log" 2>&1 & pids+=($!)
+slurmd -D -N n2 -f "$SLURM_CONF" > "$work/n2.out.log" 2>&1 & pids+=($!)
 for _ in $(seq 60); do
     [ "$(sinfo -h -t idle -o %D 2> /dev/null)" = 2 ] && break
     sleep 1
@@ -80,7 +80,7 @@ base: base.yaml
 mode: random
 count: 120
 seed: 1
-axes: {balls.a.position[2]: {uniform: [0.5, 2]}}
+axes: {"balls.a.position[2]": {uniform: [0.5, 2]}}
 results: {top: 'peak("a", 1)'}
 outputs: {film: mp4, events: true}
 SWEEP

@@ -14,6 +14,7 @@
 #include "cli/standard_output.h"
 #include "core/readable.h"
 #include "scene/schema.h"
+#include "sweep/results.h"
 
 namespace carom {
 
@@ -104,7 +105,9 @@ void add_schema_command(CLI::App& app, Run& run) {
     command->callback([reference, file, &run] {
         run = [reference, file] {
             const FileKind kind = *file == "sweep" ? FileKind::kSweep : FileKind::kScene;
-            write_standard_output(*reference ? reference_markdown(kind) : json_schema(kind));
+            std::string text = *reference ? reference_markdown(kind) : json_schema(kind);
+            if (*reference && kind == FileKind::kSweep) text += result_reference_markdown();
+            write_standard_output(text);
             return int{kExitDone};
         };
     });

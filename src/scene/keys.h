@@ -177,6 +177,10 @@ struct SectionDoc {
 class KeyTable {
   public:
     explicit KeyTable(FileKind kind = FileKind::kScene);
+    KeyTable(const KeyTable&) = delete;  // what it hands out points into it
+    KeyTable& operator=(const KeyTable&) = delete;
+    KeyTable(KeyTable&&) = default;
+    KeyTable& operator=(KeyTable&&) = default;
 
     /// In the order of the documents; pointers live as long as the table.
     const std::vector<const KeySpec*>& keys(Section section) const;

@@ -176,6 +176,8 @@ bool Draw::read_bounds(const Node& bounds, Kind kind, Report& report) {
     return wrong.empty();
 }
 
+bool Draw::has_ends() const { return kind_ != Kind::kNormal || std::isfinite(within_low_); }
+
 std::int64_t Draw::levels() const {
     if (kind_ == Kind::kValues) return static_cast<std::int64_t>(values_.size());
     return kind_ == Kind::kRange ? steps_ : draws_;
@@ -195,7 +197,9 @@ Node Draw::level(std::int64_t index) const {
     if (index == 0) return made(a_);
     if (index == steps_ - 1) return made(b_);
     const double part = static_cast<double>(index) / static_cast<double>(steps_ - 1);
-    const double value = log_ ? a_ * std::pow(b_ / a_, part) : std::lerp(a_, b_, part);
+    // By powers of ten, which come out exactly.
+    const double value = log_ ? std::pow(10, std::lerp(std::log10(a_), std::log10(b_), part))
+                              : std::lerp(a_, b_, part);
     return made(rounded(value));
 }
 

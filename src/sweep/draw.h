@@ -28,6 +28,8 @@ class Draw {
 
     /// Not a list, a range or one value.
     bool is_random() const { return kind_ > Kind::kRange; }
+    /// False of a normal distribution that is not cut off: any value may come.
+    bool has_ends() const;
     /// Of a list or a range how many values, of a draw how many are wanted in a grid.
     std::int64_t levels() const;
     /// 0 <= index < levels(), of what is not random.

@@ -100,28 +100,35 @@ std::vector<std::string> names_in(const std::string& expression) {
 
 const std::vector<ResultFunction>& result_functions() {
     static const std::vector<ResultFunction> kAll = {
-        {"peaks(\"a\")", "how many peaks ball a has"},
-        {"peak(\"a\", n)", "height of its n-th peak: the gap under it, m"},
-        {"peak_time(\"a\", n)", "when that is, s"},
-        {"impacts(\"a\")", "how many impacts ball a has; \"a/floor\": those with the floor"},
-        {"impact_time(\"a\", n)", "when the n-th impact is, s"},
-        {"approach_speed(\"a\", n)", "along the normal before it, m/s"},
-        {"separation_speed(\"a\", n)", "along the normal after it, m/s"},
-        {"impulse(\"a\", n)", "along the normal, N s"},
-        {"slide_time(\"a\")", "when the first sliding contact begins, s"},
-        {"roll_time(\"a\")", "the same of rolling"},
-        {"rest_time(\"a\")", "the same of rest"},
-        {"leave_time(\"a\")", "when a lasting contact first ends, s"},
-        {"x(\"a\", t), y, z", "where its centre is at the time t, m"},
-        {"vx(\"a\", t), vy, vz", "its velocity, m/s"},
-        {"speed(\"a\", t)", "the length of that, m/s"},
-        {"spin(\"a\", t)", "the length of its angular velocity, rad/s"},
-        {"kinetic_energy(\"a\", t)", "of translation and rotation, J; \"*\": of all balls"},
-        {"energy(\"a\", t)", "the same with that of its place, 0 at the origin, J"},
-        {"duration", "of the motion, s"},
-        {"balls", "how many balls the scene has"},
+        {"peaks(\"a\")", "", "how many peaks ball a has"},
+        {"peak(\"a\", 1)", "m", "the gap under it at its first peak"},
+        {"peak_time(\"a\", 1)", "s", "when that is"},
+        {"impacts(\"a\")", "", "how many impacts it has"},
+        {"impact_time(\"a\", 1)", "s", "when the first one is"},
+        {"approach_speed(\"a\", 1)", "m/s", "along the normal before it"},
+        {"separation_speed(\"a\", 1)", "m/s", "along the normal after it"},
+        {"impulse(\"a\", 1)", "N s", "along the normal"},
+        {"slide_time(\"a\")", "s", "when the first sliding contact begins"},
+        {"roll_time(\"a\")", "s", "when the first rolling one begins"},
+        {"rest_time(\"a\")", "s", "when it first comes to rest"},
+        {"leave_time(\"a\")", "s", "when a lasting contact first ends"},
+        {"x(\"a\", 0.5)", "m", "where its centre is after 0.5 s; also `y`, `z`"},
+        {"vx(\"a\", 0.5)", "m/s", "its velocity then; also `vy`, `vz`"},
+        {"speed(\"a\", 0.5)", "m/s", "the length of that"},
+        {"spin(\"a\", 0.5)", "rad/s", "the length of its angular velocity"},
+        {"kinetic_energy(\"a\", 0.5)", "J", "of translation and rotation; `\"*\"`: of all balls"},
+        {"energy(\"a\", 0.5)", "J", "the same with that of its place, 0 at the origin"},
+        {"duration", "s", "of the motion"},
+        {"balls", "", "how many balls the scene has"},
     };
     return kAll;
+}
+
+std::string result_reference_markdown() {
+    std::string text = "### Functions of results\n\n| Example | Unit | Value |\n|---|---|---|\n";
+    for (const ResultFunction& one : result_functions())
+        text += fmt::format("| `{}` | {} | {} |\n", one.example, one.unit, one.meaning);
+    return text + "\n";
 }
 
 std::string wrong_expression(const std::string& expression, const std::vector<std::string>& names,

@@ -12,12 +12,16 @@
 
 namespace carom {
 
-/// A function of expressions, for the documents and messages.
+/// A function of expressions, or a number that has a name.
 struct ResultFunction {
-    const char* usage;
+    const char* example;
+    const char* unit;
     const char* meaning;
 };
 const std::vector<ResultFunction>& result_functions();
+
+/// All of them in Markdown, as they stand in docs/sweeps.md.
+std::string result_reference_markdown();
 
 /// Why this is no expression, "" for one that is. `balls` and `surfaces` are the names that may
 /// stand in it; a name that begins with one of `prefixes` may be one of a drawn ball.

@@ -21,7 +21,7 @@ struct RunOutcome {
 };
 
 struct ManyRuns {
-    const std::vector<std::int64_t>& todo;  ///< in the order in which they are begun
+    const std::vector<std::int64_t>& todo;  ///< in order of their numbers
     int jobs = 1;                           ///< at most so many at once
     bool fail_fast = false;                 ///< none is begun after one that failed
     std::stop_token stop;                   ///< none is begun, and what was is left

@@ -36,6 +36,7 @@ std::vector<Node> samples(const Draw& draw) {
     constexpr std::int64_t kMostLooked = 1000;
     constexpr double kNearlyOne = 1 - 1e-15;
     if (!draw.values().empty() && draw.levels() <= kMostLooked) return draw.values();
+    if (!draw.has_ends()) return {draw.at(0.5)};
     return {draw.at(0), draw.at(0.5), draw.at(kNearlyOne)};
 }
 

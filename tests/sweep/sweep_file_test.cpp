@@ -37,7 +37,7 @@ TEST(SweepFile, NamesLineAndColumnOfEveryMistake) {
         {"base: base.yaml\naxes: {balls.a.mass: {choice: [1, 2], weights: [1]}}\n",
          "2:48: 1 weights for 2 values"},
         {"base: base.yaml\naxes: {balls.a.mass: {normal: [1, 0]}}\n",
-         "2:34: a standard deviation is above 0"},
+         "2:35: a standard deviation is above 0"},
         {"base: base.yaml\naxes: {balls.a.mass: {integer: [1, 2.5]}}\n",
          "2:32: the bounds of integer are whole numbers"},
         {"base: base.yaml\nmode: zip\naxes:\n  balls.a.mass: [1, 2]\n  film.fps: [1, 2, 3]\n",

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "core/temporary_folder.h"
 #include "sweep/plan.h"
@@ -38,7 +39,7 @@ class SweepFiles {
     Sweep sweep() const {
         SweepResult result = read();
         for (const Diagnostic& one : result.diagnostics.items()) ADD_FAILURE() << one.text();
-        return result.sweep.value();
+        return std::move(result.sweep.value());
     }
     /// "2:3: message", a line each.
     std::string mistakes() const {
