@@ -3,7 +3,7 @@
 
 usage: sweep.py [CAROM] [--rounds 5] [--runs 4000] [--films 60] [--folder /dev/shm]
 
-Each round makes both sweeps with 1 and with 2 jobs, in turns. Prints medians: CPU milliseconds of a
+Each round makes both sweeps on one core and on two, with as many jobs, in turns. Prints medians: CPU milliseconds of a
 run, runs a second as they went by (on a machine that does nothing else), what the CPU time allows
 on two cores, the time of 1 job against that of 2, and the cost of a start with nothing to do.
 """
@@ -32,13 +32,16 @@ NUMBERS = {
 }
 
 
+CORES = sorted(os.sched_getaffinity(0))
+
+
 def timed(carom, folder, name, jobs):
-    """Wall and CPU seconds of a sweep into a new folder."""
+    """Wall and CPU seconds of a sweep into a new folder, on as many cores as jobs."""
     out = folder / "out"
     shutil.rmtree(out, ignore_errors=True)
     begin = time.monotonic()
     process = subprocess.Popen([carom, "sweep", folder / name, "-o", out, "-q", "--progress", "none", "--jobs",
-                                str(jobs)])
+                                str(jobs)], preexec_fn=lambda: os.sched_setaffinity(0, CORES[:jobs]))
     _, status, usage = os.wait4(process.pid, 0)
     wall = time.monotonic() - begin
     if status != 0:

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/checksum.h"
+#include "core/in_parallel.h"
 #include "media/output_file.h"
 
 namespace carom {
@@ -54,6 +55,32 @@ void write_changed(const fs::path& path, const std::string& text) {
     write_text_file(path.string(), text);
 }
 
+struct Row {
+    RunRecord record;
+    std::string text;
+};
+
+/// Of the runs first ... last - 1.
+std::vector<Row> read_rows(const Sweep& sweep, const Plan& plan, const std::string& dir,
+                           std::int64_t first, std::int64_t last) {
+    std::vector<Row> rows(static_cast<std::size_t>(last - first));
+    constexpr std::int64_t kPart = 128;  // worth handing to a thread
+    in_parallel(static_cast<int>((last - first + kPart - 1) / kPart), [&](int part) {
+        const std::int64_t begin = first + part * kPart;
+        for (std::int64_t run = begin; run < std::min(begin + kPart, last); ++run) {
+            const std::vector<Node> values = plan.values(run);
+            RunRecord record = read_record(sweep, dir, run);
+            if (record.fingerprint != run_fingerprint(sweep, run, values)) {
+                record = {};
+                record.run = run;
+            }
+            std::string text = index_row(sweep, values, record);
+            rows[static_cast<std::size_t>(run - first)] = {std::move(record), std::move(text)};
+        }
+    });
+    return rows;
+}
+
 /// Sums over the runs that are done, in their order.
 struct Sums {
     Checksum motions, files;
@@ -75,25 +102,24 @@ struct Sums {
 IndexCounts write_index(const Sweep& sweep, const Plan& plan, const std::string& dir,
                         const std::map<std::string, std::string>& versions) {
     constexpr std::size_t kMostNamed = 10;
+    constexpr std::int64_t kBlock = 4096;  // read by all processors, then added in order
     IndexCounts counts;
     Sums sums;
     std::string index = header(sweep);
-    for (std::int64_t run = 0; run < plan.count(); ++run) {
-        const std::vector<Node> values = plan.values(run);
-        RunRecord record = read_record(sweep, dir, run);
-        if (record.fingerprint != run_fingerprint(sweep, run, values)) {
-            record = {};
-            record.run = run;
+    for (std::int64_t first = 0; first < plan.count(); first += kBlock) {
+        for (Row& row :
+             read_rows(sweep, plan, dir, first, std::min(first + kBlock, plan.count()))) {
+            index += row.text;
+            RunRecord& record = row.record;
+            if (record.status == RunStatus::kDone) {
+                ++counts.done;
+                sums.add(record);
+                continue;
+            }
+            ++(record.status == RunStatus::kMissing ? counts.missing : counts.failed);
+            if (record.status != RunStatus::kMissing && counts.first_failed.size() < kMostNamed)
+                counts.first_failed.push_back(std::move(record));
         }
-        index += index_row(sweep, values, record);
-        if (record.status == RunStatus::kDone) {
-            ++counts.done;
-            sums.add(record);
-            continue;
-        }
-        ++(record.status == RunStatus::kMissing ? counts.missing : counts.failed);
-        if (record.status != RunStatus::kMissing && counts.first_failed.size() < kMostNamed)
-            counts.first_failed.push_back(std::move(record));
     }
     Json dataset = {{"carom", 1},
                     {"seed", sweep.seed},
