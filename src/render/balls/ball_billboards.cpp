@@ -162,21 +162,17 @@ BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInVie
     for (const BallInView& ball : balls) {
         const int first = static_cast<int>(casters.vec4s.size() / 4);
         int count = 0;
+        if (!ball.drawn) {
+            casters.first.push_back(first);
+            casters.count.push_back(count);
+            continue;
+        }
         for (const int number : cells.near(ball)) {
             const BallInView& other = balls[static_cast<std::size_t>(number)];
             if (&other == &ball || other.instant != ball.instant) continue;
-            // Between the ball and the lamp, within the penumbra's reach, or close enough to
-            // darken.
-            const Vec3 rel = other.center - ball.center;
-            const double along = rel.dot(to_light_);
-            const double reach = ball.radius + other.radius;
-            if (along < -reach) continue;
-            const double across2 = rel.squaredNorm() - along * along;
-            const double wide = reach + std::max(0.0, along) * light_tan_;
-            if (across2 > wide * wide) continue;
-            // A lamp that looks much larger than the caster hides the shadow.
-            if (along * light_tan_ > kLargestLamp * other.radius) continue;
-            put(casters.vec4s, rel / ball.radius, other.radius / ball.radius);
+            if (!may_shade(other, ball, to_light_, light_tan_)) continue;
+            put(casters.vec4s, (other.center - ball.center) / ball.radius,
+                other.radius / ball.radius);
             if (++count == kMostCasters) break;
         }
         casters.first.push_back(first);

@@ -61,6 +61,20 @@ void BallShadows::mark(const std::vector<BallInView>& balls, TileOwners& owners)
                             static_cast<int>(tiles[i]), static_cast<int>(tiles[i + 1]));
 }
 
+const ShadowTiles& BallShadows::cast(const std::vector<BallInView>& balls) {
+    tiles_.update(balls);
+    return tiles_;
+}
+
+void BallShadows::draw_within(const TileMask& mask, const BackgroundPicture& background) {
+    within_.clear();
+    const std::vector<float>& tiles = tiles_.tiles();
+    for (std::size_t i = 0; i < tiles.size(); i += 4)
+        if (mask.has_tile(static_cast<int>(tiles[i]), static_cast<int>(tiles[i + 1])))
+            within_.insert(within_.end(), &tiles[i], &tiles[i] + 4);
+    if (!within_.empty()) draw_tiles(within_, tiles_.casters(), background);
+}
+
 void BallShadows::draw(const std::vector<BallInView>& balls, const BackgroundPicture& background) {
     tiles_.update(balls);
     if (!tiles_.tiles().empty()) draw_tiles(tiles_.tiles(), tiles_.casters(), background);

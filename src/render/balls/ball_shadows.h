@@ -6,6 +6,7 @@
 #include "render/background/background_picture.h"
 #include "render/balls/shadow_tiles.h"
 #include "render/gl/gl_program.h"
+#include "render/tile/tile_mask.h"
 #include "render/tile/tile_owners.h"
 
 namespace carom {
@@ -25,6 +26,10 @@ class BallShadows {
     /// pixel are combined before the colour is changed, so that shadows that overlap are not darker
     /// than the light that is left.
     void draw(const std::vector<BallInView>& balls, const BackgroundPicture& background);
+    /// The same of the balls of the last cast(), in the tiles of a mask alone.
+    void draw_within(const TileMask& mask, const BackgroundPicture& background);
+    /// Finds which shadow falls where.
+    const ShadowTiles& cast(const std::vector<BallInView>& balls);
 
     /// Uses the program, for drivers that compile at the first use; the viewport is without extent.
     void compile(const BackgroundPicture& background);
@@ -42,6 +47,7 @@ class BallShadows {
     GlVertexArray vertex_array_;
     GlBuffer tile_buffer_;
     GlVec4Array caster_array_;
+    std::vector<float> within_;
 };
 
 }  // namespace carom

@@ -129,6 +129,12 @@ void FramePasses::draw_below(const DrawnBalls& bodies, const BackgroundPicture& 
     if (reflections_) reflections_->draw(bodies.balls, background, frame_, color_);
 }
 
+void FramePasses::draw_below_within(const TileMask& mask, const DrawnBalls& bodies,
+                                    const BackgroundPicture& background) {
+    if (shadows_) shadows_->draw_within(mask, background);
+    if (reflections_) reflections_->draw(bodies.balls, background, frame_, color_);
+}
+
 void FramePasses::draw_balls(const DrawnBalls& bodies, const BackgroundPicture& background) {
     draw_in_its_context(balls_,
                         [&](BallBillboards& balls) { balls.draw(bodies.balls, background); });
