@@ -170,13 +170,13 @@ TEST(FrameWorkers, SeveralThreadsDoEveryFrameOnce) {
 
 TEST(FrameWorkers, CanGoOnAfterADrain) {
     int done = 0;
-    FrameWorkers workers(1, 2, [&](int, std::int64_t, const Image&) { ++done; });
+    FrameWorkers workers(1, 2, [&](int, std::int64_t, const Image&, const ChangedParts&) { ++done; });
     workers.drain();
     EXPECT_EQ(done, 0);
-    workers.push(0, Image(2, 2));
+    workers.push(0, Image(2, 2), {});
     workers.drain();
     EXPECT_EQ(done, 1);
-    workers.push(1, Image(2, 2));
+    workers.push(1, Image(2, 2), {});
     workers.drain();
     EXPECT_EQ(done, 2);
 }

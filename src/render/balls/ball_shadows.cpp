@@ -11,43 +11,56 @@ namespace carom {
 
 namespace {
 
-GlProgram make_program(const Gl& gl, const View& view) {
+GlProgram make_program(const Gl& gl, const View& view, const Lights& lights, bool one_caster) {
     GlProgram::Sources sources;
     sources.name = "ball shadows";
-    sources.vertex =
-        assemble_shader({fmt::format("TILE_PX {}.0", ShadowTiles::kTilePx)}, {"tile_vertex"});
-    sources.fragment = assemble_shader(view_defines(view), {"ball_shadow_fragment"});
+    std::vector<std::string> tile = {fmt::format("TILE_PX {}.0", ShadowTiles::kTilePx)};
+    std::vector<std::string> pixel = view_defines(view);
     sources.attributes = {"a_tile"};
+    if (one_caster) {
+        tile.emplace_back("ONE_CASTER");
+        pixel.emplace_back("ONE_CASTER");
+        sources.attributes.emplace_back("a_caster");
+    }
+    sources.vertex = assemble_shader(tile, {"tile_vertex"});
+    sources.fragment = assemble_shader(pixel, {"ball_shadow_fragment"});
     sources.outputs = {"out_factor"};
-    return GlProgram(gl, sources);
+    GlProgram program(gl, sources);
+    set_common_uniforms(program, view, lights);
+    program.set("u_size", Vec2(view.width_px(), view.height_px()));
+    program.set("u_g_buffer", 0);
+    program.set("u_casters", 2);
+    return program;
 }
 
 }  // namespace
 
 BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, const Lights& lights,
-                         std::vector<TileBound> seen)
+                         BallPrograms programs, std::vector<TileBound> seen)
     : gl_(&gl),
+      one_program_(programs == BallPrograms::kOneForAll),
       tiles_(scene, view, lights, std::move(seen)),
-      program_(make_program(gl, view)),
+      view_(view),
+      lights_(lights),
+      program_(make_program(gl, view, lights, false)),
       vertex_array_(gl),
       tile_buffer_(gl),
       caster_array_(gl) {
-    set_common_uniforms(program_, view, lights);
-    program_.set("u_size", Vec2(view.width_px(), view.height_px()));
-    program_.set("u_g_buffer", 0);
-    program_.set("u_casters", 2);
     gl.BindVertexArray(vertex_array_.name());
-    gl.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
-    gl.EnableVertexAttribArray(0);
-    gl.VertexAttribDivisor(0, 1);
-    gl.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+    for (const GLuint attribute : {0, 1}) {
+        gl.EnableVertexAttribArray(attribute);
+        gl.VertexAttribDivisor(attribute, 1);
+    }
     gl.check("preparing the shadows");
 }
 
 void BallShadows::set_view(const Scene& scene, const View& view, const Lights& lights,
                            std::vector<TileBound> seen) {
     tiles_ = ShadowTiles(scene, view, lights, std::move(seen));
+    view_ = view;
+    lights_ = lights;
     set_common_uniforms(program_, view, lights);
+    if (one_caster_) set_common_uniforms(*one_caster_, view, lights);
 }
 
 void BallShadows::mark(const std::vector<BallInView>& balls, TileOwners& owners) {
@@ -67,26 +80,44 @@ const ShadowTiles& BallShadows::cast(const std::vector<BallInView>& balls) {
 }
 
 void BallShadows::draw_within(const TileMask& mask, const BackgroundPicture& background) {
-    within_.clear();
-    const std::vector<float>& tiles = tiles_.tiles();
-    for (std::size_t i = 0; i < tiles.size(); i += 4)
-        if (mask.has_tile(static_cast<int>(tiles[i]), static_cast<int>(tiles[i + 1])))
-            within_.insert(within_.end(), &tiles[i], &tiles[i] + 4);
-    if (!within_.empty()) draw_tiles(within_, tiles_.casters(), background);
+    draw_sorted(&mask, background);
 }
 
 void BallShadows::draw(const std::vector<BallInView>& balls, const BackgroundPicture& background) {
     tiles_.update(balls);
-    if (!tiles_.tiles().empty()) draw_tiles(tiles_.tiles(), tiles_.casters(), background);
+    draw_sorted(nullptr, background);
+}
+
+void BallShadows::draw_sorted(const TileMask* mask, const BackgroundPicture& background) {
+    lone_.clear();
+    several_.clear();
+    const std::vector<float>& tiles = tiles_.tiles();
+    const std::vector<float>& casters = tiles_.casters();
+    for (std::size_t i = 0; i < tiles.size(); i += 4) {
+        const float* tile = &tiles[i];
+        if (mask != nullptr &&
+            !mask->has_tile(static_cast<int>(tile[0]), static_cast<int>(tile[1])))
+            continue;
+        const bool lone = tile[3] == 1 && !one_program_;
+        std::vector<float>& list = lone ? lone_ : several_;
+        list.insert(list.end(), tile, tile + 4);
+        const float* caster = &casters[4 * static_cast<std::size_t>(tile[2])];
+        list.insert(list.end(), caster, caster + 4);
+    }
+    if (!several_.empty()) draw_tiles(program_, several_, casters, background);
+    if (lone_.empty()) return;
+    if (!one_caster_) one_caster_.emplace(make_program(*gl_, view_, lights_, true));
+    draw_tiles(*one_caster_, lone_, casters, background);
 }
 
 void BallShadows::compile(const BackgroundPicture& background) {
-    draw_tiles({0, 0, 0, 1}, {0, 0, 0, 1}, background);
+    draw_tiles(program_, {0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0, 1}, background);
 }
 
-void BallShadows::draw_tiles(const std::vector<float>& tiles, const std::vector<float>& casters,
+void BallShadows::draw_tiles(GlProgram& program, const std::vector<float>& tiles,
+                             const std::vector<float>& casters,
                              const BackgroundPicture& background) {
-    program_.use();
+    program.use();
     caster_array_.upload(casters);
     caster_array_.bind(2);
     gl_->ActiveTexture(GL_TEXTURE0);
@@ -95,11 +126,17 @@ void BallShadows::draw_tiles(const std::vector<float>& tiles, const std::vector<
     gl_->BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(float)),
                     tiles.data(), GL_STREAM_DRAW);
+    constexpr std::size_t kFloats = 8;  // a tile, and its first caster
+    for (const GLuint attribute : {0, 1})
+        gl_->VertexAttribPointer(
+            attribute, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kFloats * sizeof(float)),
+            reinterpret_cast<const void*>(std::size_t{attribute} * 4 * sizeof(float)));
     // Linear colour times the factor f. What is left of the light that shines through, 1 - alpha,
     // is lessened by f as well: alpha becomes (1 - f) + f alpha.
     gl_->Enable(GL_BLEND);
     gl_->BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size() / 4));
+    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4,
+                             static_cast<GLsizei>(tiles.size() / kFloats));
 }
 
 }  // namespace carom
