@@ -170,7 +170,8 @@ TEST(FrameWorkers, SeveralThreadsDoEveryFrameOnce) {
 
 TEST(FrameWorkers, CanGoOnAfterADrain) {
     int done = 0;
-    FrameWorkers workers(1, 2, [&](int, std::int64_t, const Image&, const ChangedParts&) { ++done; });
+    FrameWorkers workers(1, 2,
+                         [&](int, std::int64_t, const Image&, const ChangedParts&) { ++done; });
     workers.drain();
     EXPECT_EQ(done, 0);
     workers.push(0, Image(2, 2), {});
