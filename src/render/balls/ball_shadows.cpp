@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/check.h"
@@ -31,6 +33,36 @@ GlProgram make_program(const Gl& gl, const View& view, const Lights& lights, boo
     program.set("u_g_buffer", 0);
     program.set("u_casters", 2);
     return program;
+}
+
+/// Tiles that one ball alone casts a shadow into, as a rectangle: what is drawn at once costs less.
+struct LoneTiles {
+    int column, row, columns, rows;
+    const float* caster;
+};
+
+/// Joins runs of a row, in order, with equal ones of the rows above.
+void join_rows(std::vector<LoneTiles>& runs) {
+    constexpr std::ptrdiff_t kNear = 100;  // of a crowd, what lies above is not far back
+    std::vector<LoneTiles> joined;
+    for (const LoneTiles& run : runs) {
+        const auto end = joined.rbegin() + std::min(kNear, std::ssize(joined));
+        const auto above = std::find_if(joined.rbegin(), end, [&](const LoneTiles& other) {
+            return other.row + other.rows == run.row && other.column == run.column &&
+                   other.columns == run.columns &&
+                   std::equal(run.caster, run.caster + 4, other.caster);
+        });
+        if (above != end)
+            ++above->rows;
+        else
+            joined.push_back(run);
+    }
+    runs = std::move(joined);
+}
+
+void append(const float* tile, const float* caster, std::vector<float>& list) {
+    list.insert(list.end(), tile, tile + 4);
+    list.insert(list.end(), caster, caster + 4);
 }
 
 }  // namespace
@@ -89,8 +121,8 @@ void BallShadows::draw(const std::vector<BallInView>& balls, const BackgroundPic
 }
 
 void BallShadows::draw_sorted(const TileMask* mask, const BackgroundPicture& background) {
-    lone_.clear();
     several_.clear();
+    std::vector<LoneTiles> lone;
     const std::vector<float>& tiles = tiles_.tiles();
     const std::vector<float>& casters = tiles_.casters();
     for (std::size_t i = 0; i < tiles.size(); i += 4) {
@@ -98,11 +130,26 @@ void BallShadows::draw_sorted(const TileMask* mask, const BackgroundPicture& bac
         if (mask != nullptr &&
             !mask->has_tile(static_cast<int>(tile[0]), static_cast<int>(tile[1])))
             continue;
-        const bool lone = tile[3] == 1 && !one_program_;
-        std::vector<float>& list = lone ? lone_ : several_;
-        list.insert(list.end(), tile, tile + 4);
-        const float* caster = &casters[4 * static_cast<std::size_t>(tile[2])];
-        list.insert(list.end(), caster, caster + 4);
+        const auto first = static_cast<std::size_t>(tile[2]);
+        if (tile[3] != 1 || one_program_) {
+            append(tile, &casters[4 * first], several_);
+            continue;
+        }
+        const int column = static_cast<int>(tile[0]), row = static_cast<int>(tile[1]);
+        const float* caster = &casters[4 * first];
+        if (!lone.empty() && lone.back().row == row &&
+            lone.back().column + lone.back().columns == column &&
+            std::equal(caster, caster + 4, lone.back().caster))
+            ++lone.back().columns;
+        else
+            lone.push_back({column, row, 1, 1, caster});
+    }
+    join_rows(lone);
+    lone_.clear();
+    for (const LoneTiles& run : lone) {
+        const float rectangle[] = {static_cast<float>(run.column), static_cast<float>(run.row),
+                                   static_cast<float>(run.columns), static_cast<float>(run.rows)};
+        append(rectangle, run.caster, lone_);
     }
     if (!several_.empty()) draw_tiles(program_, several_, casters, background);
     if (lone_.empty()) return;
@@ -135,8 +182,7 @@ void BallShadows::draw_tiles(GlProgram& program, const std::vector<float>& tiles
     // is lessened by f as well: alpha becomes (1 - f) + f alpha.
     gl_->Enable(GL_BLEND);
     gl_->BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4,
-                             static_cast<GLsizei>(tiles.size() / kFloats));
+    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size() / kFloats));
 }
 
 }  // namespace carom
