@@ -89,7 +89,8 @@ void FramePasses::prepare(const BackgroundPicture& background) {
     const View& view = setup_.view;
     const Lights& lights = setup_.lights;
     const bool on_surfaces = setup_.moving ? !scene.surfaces.empty() : setup_.surfaces.count() > 0;
-    if (on_surfaces && !scene.balls.empty()) shadows_.emplace(gl_, scene, view, lights, around_.programs);
+    if (on_surfaces && !scene.balls.empty())
+        shadows_.emplace(gl_, scene, view, lights, around_.programs);
     if (around_.mirrored) reflections_.emplace(gl_, scene, view, lights, setup_.scale, around_);
     if (!setup_.moving) {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
