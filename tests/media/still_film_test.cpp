@@ -91,6 +91,8 @@ TEST_F(StillFilmTest, ShowTheSamePicturesAtTheSameTimes) {
     for (const char* preset : {"ultrafast", "veryfast", "medium"}) {
         for (const char* pixels : {"yuv420p", "yuv444p10le"}) {
             for (const char* name : {"film.mp4", "film.mkv", "film.mov"}) {
+                const bool usual = std::string(preset) + pixels == "veryfastyuv420p";
+                if (!usual && std::string(name) != "film.mp4") continue;
                 SCOPED_TRACE(std::string(preset) + " " + pixels + " " + name);
                 FilmOptions options;
                 options.codec = "h264";
