@@ -57,7 +57,7 @@ ROOMS = {
         "texture": {"blend", "gl"},
         "marks": {"draw2d", "element", "runs", "view"},
         "plates": {"draw2d", "element", "runs", "view"},
-        "overlay": {"draw2d", "element", "marks", "plates"},
+        "overlay": {"draw2d", "element", "marks", "plates", "tile"},
         "background": {"blend", "gl", "tile", "view"},
         "balls": {"background", "blend", "gl", "runs", "tile", "view"},
         "layers": {"balls", "runs", "view"},
