@@ -201,9 +201,7 @@ void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->footer(
         "  carom simulate scene.yaml -o motion.csv --events events.csv\n"
         "  carom simulate scene.yaml -o - --rate 1000 | head\n");
-    command->add_option("scene", options->scene, "Scene file, - for standard input")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_argument(*command, options->scene);
     command->add_option("-o,--output", options->output, "File of the motion, - for standard output")
         ->required()
         ->type_name("MOTION.csv");
