@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Tries a whole release in Debian systems of its own, made anew: set-up, tests, golden pictures,
-# motions and packages in one, and the packages alone in others, as a user has them.
+# Tries a whole release in Debian systems of its own, made anew: set-up, packages, golden pictures,
+# motions and tests in one, and the packages alone in others, as a user has them.
 #   scripts/test_release.sh bookworm|trixie [STEP...]
-# STEP: setup tests goldens motions package film autopkgtest piuparts; default all, in this order.
-#   setup        what packages.txt lists and the program, by scripts/setup.sh
-#   tests        ctest, all
-#   goldens      those in the tree, made on Debian 12
-#   motions      every scene's hash and events against those of PROGRAM, where there is one
+# STEP: setup package film goldens motions autopkgtest piuparts tests; default all, in this order.
+#   setup        a fresh system with what packages.txt lists, by scripts/setup.sh
 #   package      dpkg-buildpackage, lintian, and what the built program has of hardening
 #   film         a fresh system: apt install, a film by a user without a home, and what removal leaves
+#   goldens      those in the tree, made on Debian 12, by the package's program
+#   motions      every scene's hash and events, by it, against those of PROGRAM, where there is one
 #   autopkgtest  debian/tests in a fresh system
-#   piuparts     installing and purging, by that tool
-# The first five share a system, which is kept between calls: name `setup` for a fresh one.
+#   piuparts     installing, upgrading and purging, by that tool
+#   tests        ctest, all, by the preset release-tests
+# Steps but `film`, `autopkgtest` and `piuparts` share a system, which is kept between calls.
 # RELEASES: the folder for all of it; default out/releases. Systems as they are after debootstrap and
-#   downloaded packages are kept there; delete it to begin with nothing (1 GB a release).
+#   downloaded packages are kept there; delete it to begin with nothing (3 GB a release).
 # CCACHE_DIR: shared with the systems, so that a second call builds in a minute.
 # PROGRAM: default build/release-tests/carom. DEBIAN_MIRROR: default what this machine's apt asks.
 # JOBS: default all processors. Needs root, debootstrap and, for their steps, autopkgtest, piuparts.
@@ -22,9 +22,9 @@ cd "$(dirname "$0")/.."
 
 say() { echo "test_release: $*"; }
 fail() { say "$*" >&2; exit 1; }
-all_steps=(setup tests goldens motions package film autopkgtest piuparts)
+all_steps=(setup package film goldens motions autopkgtest piuparts tests)
 release=${1:-}
-case "$release" in bookworm | trixie) shift ;; *) sed -n '2,20s/^# \?//p' "$0" >&2; exit 2 ;; esac
+case "$release" in bookworm | trixie) shift ;; *) sed -n '2,22s/^# \?//p' "$0" >&2; exit 2 ;; esac
 steps=("$@")
 [ $# -gt 0 ] || steps=("${all_steps[@]}")
 for step in "${steps[@]}"; do
@@ -84,20 +84,24 @@ inside() {
         "$(ccache -k max_size 2>/dev/null || echo 5G)"
 }
 
-update_lists() { inside "$1" 'apt-get update -qq'; }
+# The tree as it stands; what is built there stays.
+copy_tree() {
+    mkdir -p "$system/carom"
+    git ls-files -z --cached --others --exclude-standard | xargs -0 ls -d 2>/dev/null | tr '\n' '\0' |
+        tar -c --null -T - | tar -C "$system/carom" -x
+}
 
 # ---- Steps -----------------------------------------------------------------------------------------
 step_setup() {
     fresh "$system"
-    rm -rf "$system/carom"
-    mkdir "$system/carom"
-    git ls-files -z --cached --others --exclude-standard | xargs -0 ls -d 2>/dev/null | tr '\n' '\0' |
-        tar -c --null -T - | tar -C "$system/carom" -x
-    update_lists "$system"
-    inside "$system" "CMAKE_BUILD_PARALLEL_LEVEL=$jobs scripts/setup.sh --group film --group test --preset release-tests"
+    copy_tree
+    inside "$system" 'apt-get update -qq'
+    inside "$system" "scripts/setup.sh --only-packages --group film --group test --group package"
 }
 
 step_tests() {
+    copy_tree
+    inside "$system" "CMAKE_BUILD_PARALLEL_LEVEL=$jobs scripts/setup.sh --group film --group test --preset release-tests"
     inside "$system" "ctest --preset release-tests -j $jobs >/tests.log" ||
         { grep -E 'tests passed|\*\*\*' "$system/tests.log" >&2; fail "tests fail; all of it: $system/tests.log"; }
     grep 'tests passed' "$system/tests.log"
@@ -105,7 +109,7 @@ step_tests() {
 
 step_goldens() {
     inside "$system" "find scenes -name '*.yaml' -not -path 'scenes/hard/*' | sort |
-        xargs build/release-tests/carom golden check --dir tests/golden --size 320x180"
+        xargs /packaged/usr/bin/carom golden check --dir tests/golden --size 320x180"
 }
 
 step_motions() {
@@ -116,21 +120,22 @@ step_motions() {
     done'
     [ -x "$program" ] || { say "no $program to compare motions with"; return; }
     CAROM=$program TMP=$work bash -c "$motions" >"$work/here"
-    printf 'export CAROM=build/release-tests/carom TMP=/tmp\n%s\n' "$motions" >"$system/tmp/motions.sh"
+    printf 'export CAROM=/packaged/usr/bin/carom TMP=/tmp\n%s\n' "$motions" >"$system/tmp/motions.sh"
     inside "$system" "bash /tmp/motions.sh" >"$work/there"
     diff "$work/here" "$work/there"
     say "$(wc -l <"$work/here") motions are the same"
 }
 
 step_package() {
-    inside "$system" "awk '\$1 == \"package\" {print \$2}' packages.txt |
-        xargs apt-get install -y -qq --no-install-recommends >/dev/null"
+    copy_tree
     inside "$system" "DEB_BUILD_OPTIONS=parallel=$jobs dpkg-buildpackage -us -uc -b >/package.log 2>&1" ||
         { tail -n 40 "$system/package.log" >&2; fail "dpkg-buildpackage fails; all of it: $system/package.log"; }
     rm -f "$built"/*
     mv "$system"/carom_*.changes "$system"/carom_*.buildinfo "$system"/*.deb "$built"
     rm -rf "$system/built"
     cp -r "$built" "$system/built"
+    rm -rf "$system/packaged"
+    dpkg-deb -x "$built"/carom_*.deb "$system/packaged"
     inside "$system" "lintian --fail-on error,warning,info --info --tag-display-limit 0 /built/*.changes"
     scripts/check_hardening.sh "$built"
 }
