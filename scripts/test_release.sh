@@ -96,8 +96,10 @@ step_setup() {
     fresh "$system"
     copy_tree
     inside "$system" 'apt-get update -qq'
-    inside "$system" "scripts/setup.sh --only-packages --group film --group test --group package"
+    install_packages
 }
+
+install_packages() { inside "$system" "scripts/setup.sh --only-packages --group film --group test --group package"; }
 
 step_tests() {
     copy_tree
@@ -128,6 +130,7 @@ step_motions() {
 
 step_package() {
     copy_tree
+    install_packages
     inside "$system" "DEB_BUILD_OPTIONS=parallel=$jobs dpkg-buildpackage -us -uc -b >/package.log 2>&1" ||
         { tail -n 40 "$system/package.log" >&2; fail "dpkg-buildpackage fails; all of it: $system/package.log"; }
     rm -f "$built"/*
