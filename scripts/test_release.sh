@@ -139,7 +139,7 @@ step_package() {
     cp -r "$built" "$system/built"
     rm -rf "$system/packaged"
     dpkg-deb -x "$built"/carom_*.deb "$system/packaged"
-    inside "$system" "lintian --fail-on error,warning,info --info --tag-display-limit 0 /built/*.changes"
+    inside "$system" "lintian --fail-on error,warning,info --display-info --tag-display-limit 0 /built/*.changes"
     scripts/check_hardening.sh "$built"
 }
 
@@ -190,7 +190,7 @@ step_piuparts() {
     TMPDIR=$work piuparts --basetgz "$base" --distribution "$release" --mirror "$mirror main" --no-eatmydata \
         --warn-on-leftovers-after-purge --warn-on-debsums-errors "$built"/*.deb >"$work/log" 2>&1 ||
         { tail -n 40 "$work/log" >&2; fail "piuparts fails"; }
-    tail -n 1 "$work/log"
+    grep -o "PASS: .*" "$work/log"
 }
 
 for step in "${steps[@]}"; do
