@@ -2,7 +2,7 @@
 """How many small changes of pictures `carom golden check` catches, and how often it is wrong.
 
 usage: CAROM=build/release-tests/carom PYTHONPATH=build/package-release/python \\
-    bench/mutated_goldens.py [--each N] [--seed S] [--backends osmesa,egl] [--keep DIR]
+    bench/mutated_goldens.py [--each N] [--seed S] [--backends osmesa,egl] [--kinds ball,...] [--keep DIR]
 
 N (200) changes of each kind, spread over the committed goldens; each is a golden picture of its own,
 against which the unchanged scene is checked with the default limits:
@@ -13,7 +13,8 @@ against which the unchanged scene is checked with the default limits:
   letter  one letter of a caption is another one: drawn by the program
   shadow  under a ball an ellipse as wide as it has a tenth less light, or more
 
-What changes no pixel (a plain ball that turns) is no change of the picture: another one is drawn for it.
+What changes no pixel by more than 1 of 255 (a plain ball that turns, one of few pixels, one whose marks lie behind) is
+no change: pictures of other processors differ by as much. Such tries are counted, and others made for them.
 False alarms: the committed goldens, with each backend, and with captions that are the same.
 """
 
@@ -64,9 +65,11 @@ class Facts:
     def of(self, still):
         if still.name not in self.known:
             out = self.folder / still.name
-            run("render", still.scene, "-o", out, "--set", f"film.start={still.time}", "--frames", 0, *SIZE,
-                "--layers", "segmentation", "-y", "-q")
-            self.known[still.name] = json.loads((out / "layers.json").read_text())["frames"][0]
+            made = run("render", still.scene, "-o", f"{out}/", "--set", f"film.start={still.time}", "--frames", 0,
+                       *SIZE, "--layers", "segmentation", "-y", "-q", allowed=(0, 2))
+            # Two runs side by side have no layers.
+            self.known[still.name] = (json.loads((out / "layers.json").read_text())["frames"][0]
+                                      if made.returncode == 0 else {"balls": []})
         return self.known[still.name]
 
 
@@ -165,7 +168,7 @@ def mutate(kind, still, original, facts, chance, work):
     else:
         folder = pathlib.Path(tempfile.mkdtemp(dir=work))
         changed = BY_PROGRAM[kind](still, facts, chance, folder)
-    return None if changed is None or np.array_equal(changed, original) else changed
+    return None if changed is None or carom.compare(changed, original).largest <= 1 else changed
 
 
 def main():
@@ -173,6 +176,7 @@ def main():
     parser.add_argument("--each", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--backends", default="osmesa,egl")
+    parser.add_argument("--kinds", default="ball,spin,colour,letter,shadow")
     parser.add_argument("--keep", type=pathlib.Path)
     options = parser.parse_args()
     chance = random.Random(options.seed)
@@ -182,10 +186,12 @@ def main():
         work = options.keep or pathlib.Path(folder)
         work.mkdir(parents=True, exist_ok=True)
         report = work / "report.json"
-        captioned = work / "captioned"
+        captioned, drawn = work / "captioned", work / "drawn"
         run("golden", "update", *scenes, "--dir", captioned, *SIZE, "-q", *caption)
+        run("golden", "update", *scenes, "--dir", drawn, *SIZE, "-q")
         alarms = checked = 0
-        for backend in options.backends.split(","):
+        outcomes = check(scenes, drawn, report)
+        for backend in filter(None, options.backends.split(",")):
             for where, more in ((GOLDENS, []), (captioned, caption)):
                 outcomes = check(scenes, where, report, "--backend", backend, *more)
                 wrong = [name for name, s in outcomes.items() if s["outcome"] != "same"]
@@ -195,8 +201,8 @@ def main():
         stills = [Still(name, pathlib.Path(s["scene"]), s["time"]) for name, s in outcomes.items()]
         facts = Facts(work / "facts")
         total = caught = 0
-        for kind in ("ball", "spin", "colour", "letter", "shadow"):
-            base, more = (captioned, caption) if kind == "letter" else (GOLDENS, [])
+        for kind in options.kinds.split(","):
+            base, more = {"letter": (captioned, caption), "spin": (drawn, [])}.get(kind, (GOLDENS, []))
             made = found = passed_by = 0
             missed = []
             while made < options.each and passed_by < 20 * options.each:
