@@ -40,8 +40,43 @@ TEST(EventQueue, GivesTheEarliestAndAtOneInstantTheFirstBall) {
     EXPECT_GT(ties, 1000);
 }
 
+/// As a run goes through it: the first is taken, what is upcoming is looked at, and some balls,
+/// often the taken one among them, get new times.
+TEST(EventQueue, WhatIsTakenIsGone) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    for (const int balls : {1, 2, 5, 37}) {
+        EventQueue list(static_cast<std::size_t>(balls));
+        std::vector<double> times(static_cast<std::size_t>(balls), kNever);
+        const auto least = [&] {
+            const auto found = std::min_element(times.begin(), times.end());
+            return std::pair(*found, static_cast<int>(found - times.begin()));
+        };
+        std::mt19937 random(7);
+        double now = 0;
+        for (int i = 0; i < 5000; ++i) {
+            const auto [time, ball] = least();
+            ASSERT_EQ(list.first().time, time);
+            ASSERT_EQ(list.upcoming().time, time);
+            if (time < kNever) {
+                ASSERT_EQ(list.first().ball, ball);
+                now = time;
+                list.take_first();
+                times[static_cast<std::size_t>(ball)] = kNever;
+                ASSERT_EQ(list.upcoming().time, least().first);
+            }
+            for (unsigned k = random() % 4; k > 0; --k) {
+                const int other =
+                    random() % 2 == 0 ? ball : static_cast<int>(random() % 1000) % balls;
+                const double next = now + static_cast<double>(random() % 8);
+                list.put(other, next);
+                times[static_cast<std::size_t>(other)] = next;
+            }
+        }
+    }
+}
+
 TEST(EventQueue, OfNoBallsHasNothingDue) {
-    const EventQueue list(0);
+    EventQueue list(0);
     EXPECT_TRUE(std::isinf(list.first().time));
 }
 

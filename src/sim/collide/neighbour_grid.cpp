@@ -23,24 +23,39 @@ constexpr std::size_t kMostLarge = 16;
 
 }  // namespace
 
+Box3 bounds_of(const std::vector<Vec3>& positions) {
+    Box3 box;
+    for (const Vec3& p : positions) box.extend(p);
+    return box;
+}
+
 NeighbourGrid::NeighbourGrid(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
+    prepare(positions, radii);
+    if (positions.empty()) return;
+    const Box3 box = bounds_of(positions);
+    size_ = cell_size_for(box.min(), box.max());
+    margin_ = kMargin * size_;
+    fill(positions);
+}
+
+NeighbourGrid::NeighbourGrid(const std::vector<Vec3>& positions, const std::vector<double>& radii,
+                             double freedom)
+    : margin_(freedom) {
+    prepare(positions, radii);
+    size_ = 2 * largest_radius_ * (1 + kMargin) + 2 * freedom;
+    fill(positions);
+}
+
+void NeighbourGrid::prepare(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
     CAROM_CHECK(positions.size(), ==, radii.size());
     slots_.resize(positions.size());
     places_.resize(positions.size());
-    if (positions.empty()) return;
     choose_large(radii);
-
-    Vec3 low = positions.front(), high = positions.front();
-    for (const Vec3& p : positions) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    double diameter = 0;
     for (std::size_t i = 0; i < radii.size(); ++i)
-        if (places_[i].in_cell) diameter = std::max(diameter, 2 * radii[i]);
-    largest_radius_ = 0.5 * diameter;
-    size_ = cell_size_for(low, high);
+        if (places_[i].in_cell) largest_radius_ = std::max(largest_radius_, radii[i]);
+}
 
+void NeighbourGrid::fill(const std::vector<Vec3>& positions) {
     std::size_t buckets = 16;
     while (buckets < 4 * positions.size()) buckets *= 2;
     heads_.assign(buckets, -1);
@@ -56,6 +71,7 @@ double NeighbourGrid::cell_size_for(const Vec3& low, const Vec3& high) const {
 }
 
 void NeighbourGrid::choose_large(const std::vector<double>& radii) {
+    if (radii.empty()) return;
     std::vector<double> sorted = radii;
     std::sort(sorted.begin(), sorted.end());
     const double median = sorted[sorted.size() / 2];
@@ -66,14 +82,6 @@ void NeighbourGrid::choose_large(const std::vector<double>& radii) {
             places_[i].in_cell = false;
             large_.push_back(static_cast<int>(i));
         }
-}
-
-NeighbourGrid::Cell NeighbourGrid::cell_at(const Vec3& position) const {
-    Cell cell{};
-    for (std::size_t i = 0; i < 3; ++i)
-        cell[i] =
-            static_cast<std::int64_t>(std::floor(position[static_cast<Eigen::Index>(i)] / size_));
-    return cell;
 }
 
 void NeighbourGrid::insert(int ball, const Cell& cell) {

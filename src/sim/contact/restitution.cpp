@@ -146,6 +146,16 @@ bool PairTable::find_friction() const {
     return false;
 }
 
+bool PairTable::any_loss() const {
+    for (const auto& [a, balls] : balls_of_)
+        for (int b = 0; b < static_cast<int>(materials_.size()); ++b) {
+            if (!may_meet(a, b)) continue;
+            const PairProperties pair = at(a, b);
+            if (pair.restitution < 1 || pair.laws != nullptr) return true;
+        }
+    return false;
+}
+
 bool PairTable::any(bool (*has)(const ContactLaws&)) const {
     if (!any_laws_) return false;
     std::set<int> in_use = of_surfaces_;

@@ -56,6 +56,8 @@ class PairTable {
     /// Whether two things of the scene that can meet (ball and surface, ball and ball) have
     /// friction.
     bool any_friction() const { return any_friction_; }
+    /// Whether two things that can meet lose energy in an impact, friction aside.
+    bool any_loss() const;
     /// Whether two things that can meet have laws for which `has` holds.
     bool any(bool (*has)(const ContactLaws&)) const;
 

@@ -24,24 +24,22 @@ double seconds_inside(double x, double v, double a, double low, double high, dou
     return horizon;
 }
 
-/// Seconds from `now` [s] on, at most `horizon`. Only for a ball that is in a cell.
-double seconds_in_cell(const ExactWorld& world, int ball, double now, double horizon) {
+/// Seconds from `now` [s] on, at most `horizon`. Only for a ball that has a place.
+double seconds_in_place(const ExactWorld& world, int ball, double now, double horizon) {
     const Path path = world.path(ball, now);
-    const double size = world.grid->cell_size(), margin = world.grid->margin();
-    const NeighbourGrid::Cell& cell = world.grid->cell_of(ball);
+    const Box3 place = world.place_of(ball);
     double seconds = horizon;
     const Piece& piece = world.ball(ball).piece;
     for (int i = 0; i < 3; ++i) {
-        const auto low = static_cast<double>(cell[static_cast<std::size_t>(i)]) * size;
+        const double low = place.min()[i], high = place.max()[i];
         if (piece.curve) {
             const HighDegreePath curved = high_degree_path(piece, now, std::max(seconds, 0.0));
-            seconds = seconds_above(curved, Vec3::Unit(i), low - margin);
-            seconds =
-                std::min(seconds, seconds_above(curved, -Vec3::Unit(i), -(low + size + margin)));
+            seconds = seconds_above(curved, Vec3::Unit(i), low);
+            seconds = std::min(seconds, seconds_above(curved, -Vec3::Unit(i), -high));
             continue;
         }
-        seconds = seconds_inside(path.position[i], path.velocity[i], path.acceleration[i],
-                                 low - margin, low + size + margin, seconds);
+        seconds = seconds_inside(path.position[i], path.velocity[i], path.acceleration[i], low,
+                                 high, seconds);
     }
     return seconds;
 }
@@ -50,13 +48,17 @@ double seconds_in_cell(const ExactWorld& world, int ball, double now, double hor
 
 double leaves_cell(const ExactWorld& world, int ball, double now, double until) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
-    if (!world.grid || !world.grid->in_cell(ball)) return kNever;
+    if (!world.has_place(ball)) return kNever;
     const double horizon = until - now;
-    const double seconds = seconds_in_cell(world, ball, now, horizon);
+    const double seconds = seconds_in_place(world, ball, now, horizon);
     return seconds < horizon ? now + seconds : kNever;
 }
 
 CellChange enter_cell(ExactWorld& world, int ball, double now) {
+    if (world.lists) {
+        world.lists->move(ball, world.position(ball, now), world.velocities(ball, now).linear);
+        return {3, 0, 0};
+    }
     NeighbourGrid& grid = *world.grid;
     const NeighbourGrid::Cell from = grid.cell_of(ball);
     const NeighbourGrid::Cell to = grid.cell_at(world.position(ball, now));

@@ -31,7 +31,7 @@ std::size_t Impacts::connect(double now) {
 
 /// What hangs on a contact that is met, and when that is resolved.
 ImpactCascade::Limits Impacts::gather(const Contact& seed, double now) {
-    const bool heap = in_free_space_ && seed.restitution < 1 &&
+    const bool heap = may_collapse_ && seed.restitution < 1 &&
                       (collapse_.in_heap(seed.ball) ||
                        (!seed.other.is_surface && collapse_.in_heap(seed.other.index)));
     if (!heap) {
@@ -66,7 +66,7 @@ bool Impacts::resolve(std::size_t i, double now) {
     const ImpactCascade::Limits limits = gather(seed, now);
     impacts_.clear();
     cascade_.resolve(impacts_, limits);
-    if (in_free_space_) note_series(now);
+    if (may_collapse_) note_series(now);
     const double rounding_speed =
         std::max(cluster_.rounding_speed(), limits.enough < slow_speed(world_) ? limits.enough : 0);
     log_.add_impacts(impacts_, now);

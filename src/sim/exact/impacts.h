@@ -25,6 +25,7 @@ class Impacts {
           cascade_(cluster_),
           collapse_(world.balls.size()),
           in_free_space_(world.scene.simulation.gravity.isZero(0) || world.scene.surfaces.empty()),
+          may_collapse_(in_free_space_ && world.pairs.any_loss()),
           seeds_(world.balls.size()) {}
 
     void begin_instant();
@@ -57,7 +58,7 @@ class Impacts {
     ImpactCluster cluster_;
     ImpactCascade cascade_;
     CollapseRule collapse_;
-    bool in_free_space_;
+    bool in_free_space_, may_collapse_;
     Seeds seeds_;
     std::vector<Contact> impacts_;
     std::uint64_t instant_ = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/nearest.h"
+#include "sim/collide/sure_miss.h"
 #include "sim/collide/time_of_impact.h"
 #include "sim/collide/time_of_impact_high_degree.h"
 #include "sim/exact/refusal.h"
@@ -68,8 +69,16 @@ void Predictor::look_at_surfaces(Outlook& out, double now) const {
     const int ball = out.next.ball;
     const ExactBall& b = world_.ball(ball);
     const double& found = out.next.time;
-    for (const int plane : world_.planes)
+    const bool flies = b.phase() == Phase::kFlight && !b.piece.curve;
+    const Path whole{b.piece.position, b.piece.velocity, b.piece.acceleration};
+    for (const int plane : world_.planes) {
+        // The common case: it comes nowhere near.
+        if (flies &&
+            surely_clear_of(std::get<PlaneShape>(world_.surface(plane).shape), whole, b.radius,
+                            world_.place_rounding, std::min(found, end_) - b.piece.start))
+            continue;
         if (plane != b.surface) look_at_surface(out, plane, now);
+    }
     double until = std::min(found, end_);
     if (!(until > now) || world_.bounded_surfaces.empty()) return;
     Box3 ahead = bounds_of(world_.path(ball, now), 0, until - now);
@@ -115,7 +124,8 @@ void Predictor::look_at_surface(Outlook& out, int surface, double now) const {
     } else if (!touching || -separation <= still) {
         toi = impact_with_surface(path, radius, shape, touching, until - from);
     }
-    if (toi.state == ImpactState::kHit || toi.state == ImpactState::kPressed)
+    const bool held = world_.ball(ball).surface >= 0 || stepped;
+    if (held && (toi.state == ImpactState::kHit || toi.state == ImpactState::kPressed))
         toi = beside_held(ball, surface, toi, from);
     keep_if_earlier(out, toi, {partner, touching, separation, from}, now);
 }
@@ -157,7 +167,30 @@ bool Predictor::is_beside_link(int ball, int surface, double now) const {
     });
 }
 
-void Predictor::look_at_ball(Outlook& out, int other, double now) const {
+/// The common case: two balls that fall freely, and do not meet before something else happens. Then
+/// their distance changes as on a straight line.
+bool Predictor::falls_past(const Outlook& out, int other) const {
+    const Glance& a = world_.glance(out.next.ball);
+    const Glance& b = world_.glance(other);
+    if (!a.falls() || !b.falls()) return false;
+    const double from = std::max(a.start, b.start);
+    const double of_a = from - a.start, of_b = from - b.start;
+    const Vec3& g = world_.scene.simulation.gravity;
+    Path path;
+    path.position = (a.position - b.position) + (of_a * a.velocity - of_b * b.velocity) +
+                    (0.5 * (of_a * of_a - of_b * of_b)) * g;
+    path.velocity = (a.velocity - b.velocity) + (of_a - of_b) * g;
+    const double sum = a.radius + b.radius;
+    const double distance2 = path.position.squaredNorm();
+    const double touch = sum * (1 + kSureMargin) + 2 * world_.place_rounding +
+                         1e-12 * (a.position.cwiseAbs().sum() + b.position.cwiseAbs().sum());
+    if (!(distance2 > touch * touch)) return false;
+    const double closing = path.position.dot(path.velocity);
+    return closing >= 0 ||
+           surely_apart(path, distance2, closing, touch, std::min(out.next.time, end_) - from);
+}
+
+void Predictor::look_closer(Outlook& out, int other, double now) const {
     const int ball = out.next.ball;
     const Partner partner{false, other};
     const ExactBall& a = world_.ball(ball);
@@ -185,13 +218,17 @@ void Predictor::look_at_ball(Outlook& out, int other, double now) const {
                                   : distance2 <= reach * reach;
     // The common case: both in flight, and apart.
     const bool curved = a.piece.curve || b.piece.curve;
-    if (!touching && closing >= 0 && path.acceleration.isZero(0) && !curved) return;
+    if (!touching && path.acceleration.isZero(0) && !curved &&
+        (closing >= 0 || surely_apart(path, distance2, closing, sum, until - from)))
+        return;
     double separation = 0;
     TimeOfImpact toi{ImpactState::kHit, 0};
     if (touching) separation = closing / std::sqrt(distance2);
-    const double still = kStillFraction * (path_a.velocity.norm() + path_b.velocity.norm()) +
-                         a.rounding_speed + b.rounding_speed;
-    if (!touching || (-separation <= still && !pile))
+    const auto still = [&] {
+        return kStillFraction * (path_a.velocity.norm() + path_b.velocity.norm()) +
+               a.rounding_speed + b.rounding_speed;
+    };
+    if (!touching || (!pile && -separation <= still()))
         toi = curved ? impact_at_high_degree(a, b, sum, touching, from)
                      : impact_with_sphere(path, sum, touching, until - from);
     keep_if_earlier(out, toi, {partner, touching && !pile, separation, from}, now);

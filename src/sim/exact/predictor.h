@@ -51,9 +51,13 @@ class Predictor {
     /// From `now` [s] on, whatever is known already. Not for a ball that the pile moves.
     Outlook look_ahead(int ball, double now) const;
     /// Another ball has come into reach: it comes first in `out`, or not.
-    void look_at_ball(Outlook& out, int other, double now) const;
+    void look_at_ball(Outlook& out, int other, double now) const {
+        if (!falls_past(out, other)) look_closer(out, other, now);
+    }
 
   private:
+    void look_closer(Outlook& out, int other, double now) const;
+    bool falls_past(const Outlook& out, int other) const;
     void look_at_surfaces(Outlook& out, double now) const;
     void look_at_surface(Outlook& out, int surface, double now) const;
     TimeOfImpact beside_held(int ball, int surface, const TimeOfImpact& toi, double from) const;

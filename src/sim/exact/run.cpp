@@ -25,8 +25,14 @@ constexpr double kTogether = 4 * std::numeric_limits<double>::epsilon();
 /// a hundred times as long.
 constexpr std::int64_t kEventsPerLook = 1024;
 
-/// The grid is looked at again after so many events a ball.
-constexpr std::int64_t kEventsPerGrid = 16;
+/// Who is near whom is looked at again after so many events a ball.
+constexpr std::int64_t kEventsPerFit = 16;
+/// The first time sooner: nothing is known at the start.
+constexpr std::int64_t kEventsToFirstFit = 2;
+
+/// Impacts for each ball that leaves its place, above which lists are as fast as cells and below
+/// which they are not any more. Measured on gases (bench/gas.cpp): both at a packing of 0.15.
+constexpr double kDense = 1.2, kStaysDense = 0.6;
 
 }  // namespace
 
@@ -46,7 +52,8 @@ ExactRun::ExactRun(const Scene& scene, double end, const ExactOptions& options)
     const int balls = static_cast<int>(scene.balls.size());
     for (int i = 0; i < balls; ++i) aftermath_.start(i);
     world_.balls_can_meet = can_collide_.possible;
-    if (can_collide_.possible && scene.balls.size() >= options.balls_for_grid) world_.build_grid(0);
+    if (can_collide_.possible && scene.balls.size() >= options.balls_for_grid)
+        world_.find_neighbours(0, false);
     for (int i = 0; i < balls; ++i) predict(i, 0);
 }
 
@@ -78,6 +85,8 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
                    bool until_rest) {
     Standstill standstill;
     std::int64_t looked = 0;  // how much that takes long had been done
+    std::int64_t tapped = 0;  // events
+    const auto balls = static_cast<std::int64_t>(world_.balls.size());
     for (std::int64_t events = 0;; ++events) {
         const EventQueue::Entry first = queue_.first();
         const bool step = piles_.next_step() <= first.time;
@@ -91,8 +100,8 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
             next.ball = piles_.awake().empty() ? 0 : piles_.awake().front();
         } else {
             next = due(first.ball);
-            queue_.drop(first.ball);
-            fetch(queue_.first().ball);  // most likely the next one
+            queue_.take_first();
+            queue_.for_some_upcoming([this](int ball) { fetch(ball); });
             if (!is_current(next)) continue;
         }
         const bool stuck = standstill.stuck(next.time, next.ball);
@@ -107,16 +116,20 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
             take_together(next);
             process_instant(next.time);
         }
-        fit_grid(next.time);
+        fit_places(next.time);
         if (until_rest && rest_.all_at_rest()) {
             end_ = next.time;
             break;
         }
         const std::int64_t slow = log_.report.steps + log_.report.integrated + (step ? events : 0);
         if (slow == looked && events % kEventsPerLook != 0) continue;
+        const bool has_stepped = slow != looked;
         looked = slow;
         report_progress(stop, progress, next.time);
-        if (tap_) tap_(world_.log, log_.kept_events(), next.time);
+        // To take pieces costs something for each ball.
+        if (!tap_ || (!has_stepped && events - tapped < balls)) continue;
+        tapped = events;
+        tap_(world_.log, log_.kept_events(), next.time);
     }
 }
 
@@ -209,16 +222,16 @@ Prediction ExactRun::due(int ball) const {
 
 /// Has what an event reads first on its way.
 void ExactRun::fetch(int ball) const {
-    if (!world_.grid || ball < 0) return;
+    if (!world_.finds_neighbours() || ball < 0) return;
     __builtin_prefetch(&next_[static_cast<std::size_t>(ball)]);
     world_.fetch(ball);
-    world_.grid->fetch(ball);
+    if (world_.grid) world_.grid->fetch(ball);
 }
 
 /// The next prediction, and the others of its instant.
 void ExactRun::take_together(const Prediction& next) {
     together_.assign(1, next);
-    while (queue_.first().time <= next.time * (1 + kTogether)) {
+    while (queue_.upcoming().time <= next.time * (1 + kTogether)) {
         const int ball = queue_.first().ball;
         const Prediction p = due(ball);
         if (is_current(p)) together_.push_back(p);
@@ -228,7 +241,7 @@ void ExactRun::take_together(const Prediction& next) {
 
 void ExactRun::predict(int ball, double now) {
     if (world_.ball(ball).phase() == Phase::kPile) return;
-    world_.follow_cell(ball, now);
+    world_.follow(ball, now);
     act_on(predictor_.look_ahead(ball, now), now);
 }
 
@@ -257,24 +270,40 @@ void ExactRun::act_on(const Outlook& outlook, double now) {
 
 /// A ball has left its cell: only the cells that come into reach have to be looked at.
 void ExactRun::change_cell(int ball, double now) {
+    ++changes_since_fit_;
     const CellChange change = enter_cell(world_, ball, now);
     Outlook outlook;
     outlook.next = next_[static_cast<std::size_t>(ball)];
     const auto look = [&](int other) { predictor_.look_at_ball(outlook, other, now); };
-    if (change.axes == 1 && std::abs(change.side) == 1)
+    if (world_.lists)
+        for (const int other : world_.lists->added()) look(other);
+    else if (change.axes == 1 && std::abs(change.side) == 1)
         world_.for_each_in_layer(ball, change.axis, change.side, look);
     else if (change.axes > 0)
         world_.for_each_near(ball, look);
     act_on(outlook, now);
 }
 
-/// Where balls have spread or gathered, the cells follow.
-void ExactRun::fit_grid(double now) {
+/// Where balls have spread or gathered, their places follow.
+void ExactRun::fit_places(double now) {
     const auto balls = static_cast<std::int64_t>(world_.balls.size());
-    if (!world_.grid || ++events_of_grid_ < kEventsPerGrid * balls) return;
-    events_of_grid_ = 0;
-    if (!world_.refit_grid(now)) return;
+    const std::int64_t wait = fitted_ ? kEventsPerFit : kEventsToFirstFit;
+    if (!world_.finds_neighbours() || ++events_since_fit_ < wait * balls) return;
+    fitted_ = true;
+    const bool by_lists = is_dense();
+    events_since_fit_ = changes_since_fit_ = 0;
+    impacts_at_fit_ = log_.report.impacts;
+    if (!world_.refit_neighbours(now, by_lists)) return;
     for (int i = 0; i < static_cast<int>(balls); ++i) predict(i, now);
+}
+
+/// Whether balls hit each other so much more often than they leave their places that lists are
+/// better than cells, since the last fit. Only where nothing presses them together: what is stepped
+/// (its motion depends on when it is looked at) is looked for in cells.
+bool ExactRun::is_dense() const {
+    const auto impacts = static_cast<double>(log_.report.impacts - impacts_at_fit_);
+    const auto changes = static_cast<double>(changes_since_fit_);
+    return impacts_.is_in_free_space() && impacts > (world_.lists ? kStaysDense : kDense) * changes;
 }
 
 }  // namespace carom

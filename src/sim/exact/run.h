@@ -37,7 +37,8 @@ class ExactRun {
     void predict(int ball, double now);
     void act_on(const Outlook& outlook, double now);
     void change_cell(int ball, double now);
-    void fit_grid(double now);
+    void fit_places(double now);
+    bool is_dense() const;
 
     // The loop.
     void process_instant(double now);
@@ -65,7 +66,8 @@ class ExactRun {
     RestWatch rest_{world_, links_};
     EventQueue queue_;
     std::vector<Prediction> next_;  ///< per ball
-    std::int64_t events_of_grid_ = 0;
+    std::int64_t events_since_fit_ = 0, changes_since_fit_ = 0, impacts_at_fit_ = 0;
+    bool fitted_ = false;
     CanCollide can_collide_;
 
     // Of one instant; members, so that an event allocates nothing once they have grown.

@@ -99,9 +99,9 @@ void ImpactCluster::touch_surfaces(int ball) {
     const double far =
         kFar * (radius + x.cwiseAbs().maxCoeff()) + world_.place_rounding + near_ * radius;
     world_.for_each_surface_near(ball, x, radius + far, [&](int s) {
-        if (is_known(ball, {true, s})) return;
         // Far surfaces are the common case, as far balls are below.
         if (nearest_on(world_.surface(s).shape, x, radius).gap > far) return;
+        if (is_known(ball, {true, s})) return;
         const Contact contact = world_.contact_at(ball, {true, s}, time_);
         if (meets(contact, radius)) add(contact);
     });
@@ -112,12 +112,15 @@ void ImpactCluster::touch_balls(int ball) {
     const Vec3 x = bodies_[place].position;
     const double radius = world_.ball(ball).radius;
     world_.for_each_near(ball, [&](int other) {
+        // Far pairs are the common case: a little more than the sum of the radii excludes them.
+        const Glance& glance = world_.glance(other);
+        const double reach =
+            1.001 * (radius + (glance.falls() ? glance.radius : world_.ball(other).radius));
+        const Vec3 y =
+            glance.falls() ? world_.glimpse(other, time_) : world_.position(other, time_);
+        if ((x - y).squaredNorm() > reach * reach + 1e-9 * x.squaredNorm()) return;
         if (has(other) && index_of(other) < place) return;  // looked at from the other side
         if (in_pile(world_.ball(other).phase())) return;    // met by steps of its own
-        // Far pairs are the common case: a little more than the sum of the radii excludes them.
-        const double reach = 1.001 * (radius + world_.ball(other).radius);
-        const Vec3 y = world_.position(other, time_);
-        if ((x - y).squaredNorm() > reach * reach + 1e-9 * x.squaredNorm()) return;
         const Contact contact = world_.contact_at(ball, {false, other}, time_);
         if (meets(contact, std::min(radius, world_.ball(other).radius))) add_new(contact);
     });

@@ -58,10 +58,7 @@ void PilePairs::for_each_new(int ball, double now, F&& f) const {
         if ((x - balls_.position(other, now)).squaredNorm() >= reach * reach) return;
         f(std::min(ball, other), Partner{false, std::max(ball, other)});
     };
-    if (world_.balls_can_meet && world_.grid)
-        world_.grid->for_each_touching(ball, x, radius + skin_, near);
-    else
-        world_.for_each_near(ball, near);
+    world_.for_each_touching(ball, x, radius + skin_, near);
 }
 
 void PilePairs::add_of(int ball, double now, const Links& links, bool slept) {

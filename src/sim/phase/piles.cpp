@@ -48,7 +48,7 @@ bool Piles::stand_together(int ball, double now) const {
     for (std::size_t k = 0; k < group.size() && group.size() < kManyBalls; ++k) {
         const Vec3 x = world_.position(group[k], now);
         const double radius = world_.ball(group[k]).radius;
-        world_.for_each_near(group[k], [&](int other) {
+        world_.for_each_touching(group[k], x, (1 + kTogether) * radius, [&](int other) {
             const double reach = radius + world_.ball(other).radius +
                                  kTogether * std::min(radius, world_.ball(other).radius);
             if ((world_.position(other, now) - x).squaredNorm() > reach * reach) return;
@@ -79,7 +79,7 @@ void Piles::enter(int ball, double now) {
 // ---------------------------------------------------------------------------------------
 
 void Piles::step(double now) {
-    for (const int ball : pile_.balls().awake()) world_.follow_cell(ball, now);
+    for (const int ball : pile_.balls().awake()) world_.follow(ball, now);
     taken_.clear();
     pile_.gather(now, links_, taken_);
     for (const int ball : taken_) enter(ball, now);

@@ -1,6 +1,7 @@
 // Which ball's next event is due first.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -24,23 +25,59 @@ class EventQueue {
     void put(int ball, double time);
     void drop(int ball) { put(ball, std::numeric_limits<double>::infinity()); }
     /// The time is infinite where nothing is due.
-    const Entry& first() const { return heap_.front(); }
+    const Entry& first() {
+        if (taken_) drop(at(0).ball);
+        return at(0);
+    }
+    /// Its ball has nothing due any more. What it is given next most often takes its place.
+    void take_first() {
+        first();
+        at(0).time = -std::numeric_limits<double>::infinity();  // so that all stays below it
+        taken_ = true;
+    }
+    /// What first() would tell.
+    Entry upcoming() const {
+        if (!taken_) return at(0);
+        return size_ > 1 ? at(least_child(0)) : Entry{};
+    }
+
+    /// Calls f(ball) for some of which one comes next, after the first.
+    template <class F>
+    void for_some_upcoming(F&& f) const {
+        for (std::size_t place = 1; place <= kChildren && place < size_; ++place) f(at(place).ball);
+    }
 
   private:
     static constexpr std::size_t kChildren = 4;
+    /// The children of a node: one line of cache.
+    struct alignas(64) Siblings {
+        std::array<Entry, kChildren> entries;
+    };
 
     static bool before(const Entry& a, const Entry& b) {
         return a.time < b.time || (a.time == b.time && a.ball < b.ball);
     }
+    Entry& at(std::size_t place) {
+        return heap_[(place + kChildren - 1) / kChildren]
+            .entries[(place + kChildren - 1) % kChildren];
+    }
+    const Entry& at(std::size_t place) const {
+        return heap_[(place + kChildren - 1) / kChildren]
+            .entries[(place + kChildren - 1) % kChildren];
+    }
     void set(std::size_t place, const Entry& entry) {
-        heap_[place] = entry;
+        at(place) = entry;
         place_[static_cast<std::size_t>(entry.ball)] = static_cast<std::uint32_t>(place);
     }
+    /// Only of a place that has one.
+    std::size_t least_child(std::size_t place) const;
     void move_up(std::size_t place, const Entry& entry);
     void move_down(std::size_t place, const Entry& entry);
 
-    std::vector<Entry> heap_;           ///< one per ball; never empty
-    std::vector<std::uint32_t> place_;  ///< per ball, in heap_
+    std::size_t size_;                  ///< one entry a ball; never 0
+    std::vector<Siblings> heap_;        ///< the first one stands alone, at the end of its line
+    std::vector<std::uint32_t> place_;  ///< per ball, in the heap
+    bool taken_ = false;                ///< the first one was taken, and stands there still
 };
 
 }  // namespace carom

@@ -8,7 +8,8 @@
 
 namespace carom {
 
-ExactBalls::ExactBalls(const Scene& s) : scene(s), balls(s.balls.size()), log(s.balls.size()) {
+ExactBalls::ExactBalls(const Scene& s)
+    : scene(s), balls(s.balls.size()), log(s.balls.size()), glances_(s.balls.size()) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Ball& body = s.balls[i];
         balls[i].radius = body.radius;
@@ -28,6 +29,7 @@ void ExactBalls::set_phase(int i, Phase phase) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     ExactBall& b = ball(i);
     b.phase_ = phase;
+    glances_[static_cast<std::size_t>(i)].radius = -1;  // until it begins to fall
     switch (phase) {
         case Phase::kFlight:
             b.surface = -1;
@@ -62,6 +64,9 @@ void ExactBalls::begin_piece(int i, double now, const BallState& at, const Vec3&
     if (!at.position.allFinite() || !at.velocity.allFinite() || !at.spin.allFinite())
         throw Failure(FailureKind::kRun,
                       fmt::format("the state of ball {} is not finite at {} s", body(i).name, now));
+    const bool falls =
+        b.phase_ == Phase::kFlight && !b.piece.curve && acceleration == scene.simulation.gravity;
+    glances_[static_cast<std::size_t>(i)] = {at.position, at.velocity, now, falls ? b.radius : -1};
     log.append(i, b.piece);
 }
 

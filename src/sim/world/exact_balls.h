@@ -59,6 +59,16 @@ struct alignas(64) ExactBall {
     double event_due = std::numeric_limits<double>::infinity();
 };
 
+/// What those that pass by a ball ask first, in one line of cache: how it falls freely. Of one that
+/// does anything else `radius` is negative. Its last digits may be older than those of the piece.
+struct alignas(64) Glance {
+    Vec3 position = Vec3::Zero();
+    Vec3 velocity = Vec3::Zero();
+    double start = 0;    ///< s
+    double radius = -1;  ///< m
+    bool falls() const { return radius > 0; }
+};
+
 class ExactBalls {
   public:
     explicit ExactBalls(const Scene& scene);
@@ -92,6 +102,14 @@ class ExactBalls {
                             : Vec3(pull(i) + air(i).acceleration(moving.linear, moving.spin));
     }
 
+    const Glance& glance(int i) const { return glances_[static_cast<std::size_t>(i)]; }
+    /// Where one that falls is at t [s], but for roundings.
+    Vec3 glimpse(int i, double t) const {
+        const Glance& g = glance(i);
+        const double s = t - g.start;
+        return g.position + s * (g.velocity + (0.5 * s) * scene.simulation.gravity);
+    }
+
     BallState state(int i, double t) const { return ball(i).piece.at(t); }
     /// The same without the orientation, which is what costs time.
     Vec3 position(int i, double t) const { return ball(i).piece.position_at(t); }
@@ -120,9 +138,12 @@ class ExactBalls {
         __builtin_prefetch(bytes);
         __builtin_prefetch(bytes + 64);
     }
+    /// The same of what is glanced at.
+    void fetch_glance(int i) const { __builtin_prefetch(&glance(i)); }
 
   private:
-    std::vector<AirForce> air_;  ///< per ball; empty where the scene has no air
+    std::vector<Glance> glances_;  ///< per ball
+    std::vector<AirForce> air_;    ///< per ball; empty where the scene has no air
     std::uint64_t next_stamp_ = 1;
 };
 

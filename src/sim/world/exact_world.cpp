@@ -11,9 +11,6 @@ namespace carom {
 
 namespace {
 
-/// Places are made of a few operations on numbers of their size.
-constexpr double kTouchRounding = 64 * std::numeric_limits<double>::epsilon();
-
 /// Beyond its radius a ball is looked at as far as this part of it: well above the gap of a link
 /// (island_step.h).
 constexpr double kReach = 1e-5;
@@ -42,39 +39,63 @@ PairProperties ExactWorld::pair(int material_a, int material_b) const {
                        static_cast<std::size_t>(material_b)];
 }
 
-void ExactWorld::build_grid(double t) {
+void ExactWorld::find_neighbours(double t, bool by_lists) {
     std::vector<Vec3> positions;
     std::vector<double> radii;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         positions.push_back(position(static_cast<int>(i), t));
         radii.push_back(scene.balls[i].radius);
     }
-    grid.emplace(positions, radii);
-    for (NearList& list : lists_) list.ball = -1;
+    grid.reset();
+    lists.reset();
+    if (by_lists)
+        lists.emplace(positions, radii);
+    else
+        grid.emplace(positions, radii);
+    for (NearList& list : near_lists_) list.ball = -1;
 }
 
-bool ExactWorld::refit_grid(double t) {
+bool ExactWorld::refit_neighbours(double t, bool by_lists) {
     Vec3 low = position(0, t), high = low;
     for (int i = 1; i < static_cast<int>(balls.size()); ++i) {
         const Vec3 x = position(i, t);
         low = low.cwiseMin(x);
         high = high.cwiseMax(x);
     }
-    const double ratio = grid->cell_size_for(low, high) / grid->cell_size();
-    if (ratio < kMisfit && ratio > 1 / kMisfit) return false;
-    build_grid(t);
+    const double ratio = lists ? lists->freedom_in({low, high}, balls.size()) / lists->freedom()
+                               : grid->cell_size_for(low, high) / grid->cell_size();
+    if (by_lists == lists.has_value() && ratio < kMisfit && ratio > 1 / kMisfit) return false;
+    find_neighbours(t, by_lists);
     for (int i = 0; i < static_cast<int>(balls.size()); ++i) renew(i);
     return true;
 }
 
-void ExactWorld::follow_cell(int i, double t) {
-    if (!grid || !grid->in_cell(i)) return;
-    const NeighbourGrid::Cell cell = grid->cell_at(position(i, t));
+Box3 ExactWorld::place_of(int i) const {
+    if (lists) {
+        const Vec3 reach = Vec3::Constant(lists->freedom());
+        return {lists->center(i) - reach, lists->center(i) + reach};
+    }
+    const NeighbourGrid::Cell& cell = grid->cell_of(i);
+    Vec3 low;
+    for (int k = 0; k < 3; ++k)
+        low[k] = static_cast<double>(cell[static_cast<std::size_t>(k)]) * grid->cell_size();
+    const Vec3 margin = Vec3::Constant(grid->margin());
+    return {low - margin, low + Vec3::Constant(grid->cell_size()) + margin};
+}
+
+void ExactWorld::follow(int i, double t) {
+    if (!has_place(i)) return;
+    const Vec3 x = position(i, t);
+    if (lists) {
+        if (!lists->in_box(i, x)) lists->move(i, x, ball(i).piece.velocity_at(t));
+        return;
+    }
+    const NeighbourGrid::Cell cell = grid->cell_at(x);
     if (cell != grid->cell_of(i)) grid->move(i, cell);
 }
 
 const std::vector<int>& ExactWorld::near(int ball_index) const {
-    for (const NearList& list : lists_)
+    for (const NearList& list : near_lists_)
         if (list.ball == ball_index && list.moves == grid->moves()) return list.others;
     NearList& list = next_list();
     list.ball = ball_index;
@@ -118,10 +139,6 @@ void ExactWorld::find_surfaces_ahead(int i, double t, double seconds,
 
 std::string ExactWorld::name(const Partner& partner) const {
     return partner.is_surface ? surface(partner.index).name : body(partner.index).name;
-}
-
-double ExactWorld::motion_tolerance(const Vec3& a, const Vec3& b, double size) {
-    return kTouchRounding * (a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() + size);
 }
 
 Contact ExactWorld::contact_at(int i, const Partner& partner, double t) const {

@@ -10,6 +10,7 @@
 
 #include "scene/scene.h"
 #include "sim/collide/neighbour_grid.h"
+#include "sim/collide/neighbour_lists.h"
 #include "sim/collide/surface_tree.h"
 #include "sim/collide/time_of_impact.h"
 #include "sim/contact/contact.h"
@@ -35,7 +36,11 @@ class ExactWorld : public ExactBalls {
         return place_rounding + motion_tolerance(a, b, size);
     }
     /// ... that of places which the motion itself has led to, m.
-    static double motion_tolerance(const Vec3& a, const Vec3& b, double size);
+    static double motion_tolerance(const Vec3& a, const Vec3& b, double size) {
+        // Places are made of a few operations on numbers of their size.
+        constexpr double kTouchRounding = 64 * std::numeric_limits<double>::epsilon();
+        return kTouchRounding * (a.cwiseAbs().maxCoeff() + b.cwiseAbs().maxCoeff() + size);
+    }
     /// Which of the two counts for ball i and a partner at t: of what has not moved since the start
     /// the scene's own places are all that is known.
     double touch_tolerance(int i, const Partner& partner, double t, const Vec3& a, const Vec3& b,
@@ -60,26 +65,51 @@ class ExactWorld : public ExactBalls {
 
     /// Whether balls have to look at each other at all, and why (not).
     bool balls_can_meet = true;
-    /// Empty while balls are few: then each looks at all others.
+    /// Who is near whom: by cells where balls fly far between impacts, by lists where they do not.
+    /// Neither while balls are few: then each looks at all others.
     std::optional<NeighbourGrid> grid;
-    void build_grid(double t);
-    /// Builds the grid anew where balls have spread or gathered so far that its cells do not fit
-    /// any more. Whether it did: then all predictions have to be made anew.
-    bool refit_grid(double t);
-    /// The ball is moved to the cell that it is in at t.
-    void follow_cell(int i, double t);
+    std::optional<NeighbourLists> lists;
+    void find_neighbours(double t, bool by_lists);
+    /// Builds both anew where balls have spread or gathered so far that they do not fit any more,
+    /// or the other one is wanted. Whether it did: then all predictions have to be made anew.
+    bool refit_neighbours(double t, bool by_lists);
+    bool finds_neighbours() const { return grid || lists; }
+    /// Whether a ball is found by where it stands: those that are much larger than the rest are
+    /// not.
+    bool has_place(int i) const {
+        return lists ? lists->grid().in_cell(i) : grid && grid->in_cell(i);
+    }
+    /// Where a ball that has a place may go before it has to be given another one, m.
+    Box3 place_of(int i) const;
+    /// The ball is given the place that it is in at t, if it is in another one.
+    void follow(int i, double t);
 
     /// Calls f(other) for every ball that could touch `ball`, and maybe for more. An impact asks
     /// twice for the balls near it: once who else is touched, then what comes next.
     template <class F>
     void for_each_near(int ball_index, F&& f) const {
         if (!balls_can_meet) return;
+        if (lists && lists->grid().in_cell(ball_index)) {
+            for (const int other : lists->grid().large()) f(other);
+            for (const int other : lists->of(ball_index)) fetch_glance(other);
+            for (const int other : lists->of(ball_index)) f(other);
+            return;
+        }
         if (grid) {
             for (const int other : near(ball_index)) f(other);
             return;
         }
         for (int other = 0; other < static_cast<int>(balls.size()); ++other)
             if (other != ball_index) f(other);
+    }
+    /// The same for every ball that stands where it touches one of this radius at x, where `ball`
+    /// is now.
+    template <class F>
+    void for_each_touching(int ball_index, const Vec3& x, double radius, F&& f) const {
+        if (balls_can_meet && finds_neighbours())
+            (lists ? lists->grid() : *grid).for_each_touching(ball_index, x, radius, f);
+        else
+            for_each_near(ball_index, f);
     }
 
     /// The same for the layer of cells that a ball has come to.
@@ -150,17 +180,17 @@ class ExactWorld : public ExactBalls {
     /// Where balls are many, most of an event is waiting for memory: it is on its way when the
     /// first ball of a list is looked at.
     void add_to(NearList& list, int other) const {
-        fetch(other);
+        fetch_glance(other);
         list.others.push_back(other);
     }
     NearList& next_list() const {
-        at_list_ = (at_list_ + 1) % lists_.size();
-        return lists_[at_list_];
+        at_list_ = (at_list_ + 1) % near_lists_.size();
+        return near_lists_[at_list_];
     }
     const std::vector<int>& near(int ball_index) const;
     void set_pair(Contact& contact, int material) const;
 
-    mutable std::array<NearList, 4> lists_;  ///< the last ones, in turn
+    mutable std::array<NearList, 4> near_lists_;  ///< the last ones, in turn
     mutable std::size_t at_list_ = 0;
     /// Per ball, a box where no bounded surface is: that of its last flight that met none. The next
     /// one, and what it touches in the end, most often lies inside.
