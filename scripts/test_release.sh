@@ -131,7 +131,7 @@ step_motions() {
 step_package() {
     copy_tree
     install_packages
-    inside "$system" "DEB_BUILD_OPTIONS=parallel=$jobs dpkg-buildpackage -us -uc -b >/package.log 2>&1" ||
+    inside "$system" "DEB_BUILD_OPTIONS='parallel=$jobs noautodbgsym' dpkg-buildpackage -us -uc -b >/package.log 2>&1" ||
         { tail -n 40 "$system/package.log" >&2; fail "dpkg-buildpackage fails; all of it: $system/package.log"; }
     rm -f "$built"/*
     mv "$system"/carom_*.changes "$system"/carom_*.buildinfo "$system"/*.deb "$built"
