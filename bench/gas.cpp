@@ -17,21 +17,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <new>
-#include <numbers>
-#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "clock.h"
-#include "scene/scene.h"
+#include "gas_scene.h"
 #include "sim/simulate.h"
 
 namespace {
 
 using namespace carom;
-
-constexpr double kRadius = 0.5;  // m
 
 struct Row {
     int balls = 0;
@@ -48,51 +44,6 @@ struct Measured {
     bool ok = false;
 };
 
-double side_of(const Row& row) {
-    const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
-    return std::cbrt(row.balls * volume / row.packing);
-}
-
-/// s between a ball's impacts by Enskog's theory with the contact value of Carnahan and Starling
-/// ("Equation of state for nonattracting rigid spheres", J. Chem. Phys. 51, 1969), for speeds of
-/// variance 1 along each axis.
-double seconds_between(double packing) {
-    const double density = packing / (4.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3));
-    const double at_contact = (1 - packing / 2) / std::pow(1 - packing, 3);
-    return 1 / (16 * kRadius * kRadius * density * at_contact * std::sqrt(std::numbers::pi));
-}
-
-Scene gas(const Row& row) {
-    Scene scene;
-    scene.materials.resize(2);
-    scene.materials[1].name = "ball";
-    scene.materials[1].virtual_body = {0, 1};
-    scene.simulation.gravity = Vec3::Zero();
-    const double side = side_of(row);
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double sign : {1.0, -1.0}) {
-            Surface plane;
-            plane.name = fmt::format("plane{}", scene.surfaces.size());
-            plane.shape = PlaneShape{sign * Vec3::Unit(axis), sign > 0 ? 0 : -side};
-            scene.surfaces.push_back(plane);
-        }
-    const int places = static_cast<int>(std::ceil(std::cbrt(row.balls) - 1e-9));
-    std::mt19937 random(1);
-    std::normal_distribution<double> speed(0, 1);
-    for (int i = 0; i < row.balls; ++i) {
-        Ball ball;
-        ball.name = fmt::format("ball{}", i);
-        ball.radius = kRadius;
-        ball.material = 1;
-        const Vec3 place(i % places, i / places % places, i / places / places);
-        ball.position = side / places * (place + Vec3::Constant(0.5));
-        for (int axis = 0; axis < 3; ++axis) ball.velocity[axis] = speed(random);
-        scene.balls.push_back(ball);
-    }
-    scene.simulation.duration = row.impacts * seconds_between(row.packing);
-    return scene;
-}
-
 double energy_of(const std::vector<Vec3>& velocities) {
     double sum = 0;
     for (const Vec3& v : velocities) sum += v.squaredNorm();
@@ -106,7 +57,8 @@ double peak_bytes() {
 }
 
 Measured measure(const Row& row, bool stream) {
-    const Scene scene = gas(row);
+    Scene scene = bench::gas(row.balls, row.packing, 1, 1);
+    scene.simulation.duration = row.impacts * bench::seconds_between(row.packing);
     std::vector<Vec3> before, after(scene.balls.size());
     for (const Ball& b : scene.balls) before.push_back(b.velocity);
     Measured m;

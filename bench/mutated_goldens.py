@@ -180,7 +180,7 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path)
     options = parser.parse_args()
     chance = random.Random(options.seed)
-    scenes = sorted(p for p in (ROOT / "scenes").rglob("*.yaml") if "hard" not in p.parts)
+    scenes = sorted(p for p in (ROOT / "scenes").rglob("*.yaml") if not {"hard", "measured"} & set(p.parts))
     caption = ["--set", f"overlay.caption={json.dumps(CAPTION)}"]
     with tempfile.TemporaryDirectory() as folder:
         work = options.keep or pathlib.Path(folder)

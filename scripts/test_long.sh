@@ -35,6 +35,10 @@ echo "test_long: frames of a run that is killed 20 times"
 CAROM_KILLS=20 CAROM=build/release-tests/carom CAROM_SOURCE_DIR=. \
     python3 -B tests/cli/test_chunks.py -v Resume.test_killed_and_resumed_is_unbroken
 
+echo "test_long: motions as glTF, read by Khronos' validator; a report in a browser"
+scripts/check_gltf.sh build/release-tests/carom
+scripts/check_report.sh build/release-tests/carom
+
 echo "test_long: film in a browser"
 build/release-tests/carom render scenes/figure9.yaml -o out/figure9.mp4 -y
 python3 -B tests/browser/play_film.py out/figure9.mp4

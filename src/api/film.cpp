@@ -9,6 +9,7 @@
 #include "media/frame_sink.h"
 #include "media/threaded_sink.h"
 #include "report/filming.h"
+#include "report/impact_sound.h"
 #include "scene/film_clock.h"
 
 namespace carom::v1 {
@@ -43,6 +44,7 @@ carom::FilmOptions film_options(const carom::Scene& scene, const FilmOptions& op
     film.crf = options.crf;
     film.threads = options.threads;
     film.title = scene.title;
+    film.sound.wanted = scene.film.sound;
     film.comment = fmt::format("carom {}, scene {:016x}", CAROM_VERSION, scene.fingerprint);
     film.existing = existing_of(options.overwrite);
     return film;
@@ -58,17 +60,22 @@ PngNotes notes_of(const carom::Scene& scene, std::int64_t number) {
     return notes;
 }
 
-std::unique_ptr<FrameSink> make_sink(const carom::Scene& scene, const std::string& path,
-                                     const FilmOptions& options) {
+std::unique_ptr<FrameSink> make_sink(const carom::Scene& scene, const carom::Motion& motion,
+                                     const std::string& path, const FilmOptions& options) {
     if (find_film_format(path) == nullptr) {
         if (!options.codec.empty() || !options.quality.empty() || options.crf)
             throw Error(path + " is no film: codec, quality and crf mean nothing to PNG frames");
         return make_png_sequence(path, options.threads, existing_of(options.overwrite),
                                  [&scene](std::int64_t number) { return notes_of(scene, number); });
     }
-    const carom::FilmOptions film = film_options(scene, options);
+    carom::FilmOptions film = film_options(scene, options);
     require_writable(path, options.overwrite);
     require_film(path, film);
+    SoundSamples sound;
+    if (scene.film.sound && film_format(path).sound != nullptr) {
+        sound = impact_sound(scene, motion);
+        film.sound.samples = &sound;
+    }
     return make_threaded_sink(make_film_writer(path, film), kWaitingFrames);
 }
 
@@ -80,7 +87,7 @@ std::int64_t film(const Scene& scene, const Motion& motion, const std::string& p
         const carom::Scene& inner = scene.impl().scene;
         const PainterOptions painting = painter_options(scene, motion);
         std::vector<std::unique_ptr<FrameSink>> sinks;
-        sinks.push_back(make_sink(inner, path, options));
+        sinks.push_back(make_sink(inner, motion.impl().motion, path, options));
         Painter painter(inner, motion.impl().motion, painting);
         const FrameRanges frames = FrameRanges::all(frame_count(inner.film, motion.duration()));
         FilmingHooks hooks;

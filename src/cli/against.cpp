@@ -100,7 +100,7 @@ std::optional<FilmScenes> load_film_scenes(const std::string& path, const Common
     SceneResult first = read_scene(text, path == "-" ? "<stdin>" : path, overrides);
     print(first.diagnostics, options.quiet);
     if (!first.scene) return std::nullopt;
-    FilmScenes scenes{std::move(*first.scene), std::nullopt, AgainstView::kGhost, {}};
+    FilmScenes scenes{std::move(*first.scene), std::nullopt, AgainstView::kGhost, {}, text};
     const std::optional<Against> wanted = wanted_against(scenes.scene, against);
     if (!wanted) return scenes;
 

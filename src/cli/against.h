@@ -28,6 +28,7 @@ struct FilmScenes {
     std::optional<Scene> second;  ///< empty where there is none
     AgainstView view = AgainstView::kGhost;
     std::vector<SceneDifference> differences;
+    std::string text;  ///< of SCENE, as the file has it
 };
 
 /// Reads both and prints their diagnostics; empty when one is invalid (exit code 3). --set changes

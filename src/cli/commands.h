@@ -22,6 +22,8 @@ void add_check_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_compare_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_report_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_view_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_join_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_figures_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt);

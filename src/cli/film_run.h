@@ -25,6 +25,7 @@ struct RenderOptions {
     std::vector<std::string> outputs;
     std::vector<std::string> sounds;  ///< those of the outputs that are taken apart
     std::string format = "mp4";
+    bool sound = false;  ///< --sound
     std::string frames;
     std::string chunk;
     bool resume = false;

@@ -16,6 +16,8 @@
 #include "media/wav.h"
 #include "report/bounce_onsets.h"
 #include "report/fit.h"
+#include "report/fit_drag.h"
+#include "report/fit_over_speed.h"
 #include "report/paper_data.h"
 #include "scene/catalogue.h"
 #include "scene/report.h"
@@ -42,6 +44,7 @@ struct FitCommandOptions {
     std::string plot;
     bool overwrite = false;
     bool json = false;
+    bool over_speed = false, fit_drag = false;
 };
 
 [[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
@@ -105,8 +108,12 @@ double above_zero(const std::string& text, Quantity quantity, const std::string&
     return value;
 }
 
-/// The ball that flies in air: a preset's numbers, or the options' own where they are given.
-FallInAir fall_in_air(const FitCommandOptions& options) {
+struct FlyingBall {
+    double radius = 0, mass = 0, drag = 0;  ///< 0: not given
+};
+
+/// A preset's numbers, or the options' own where they are given.
+FlyingBall flying_ball(const FitCommandOptions& options) {
     const Preset* preset = nullptr;
     if (!options.ball.empty()) {
         preset = find_preset(options.ball);
@@ -119,11 +126,40 @@ FallInAir fall_in_air(const FitCommandOptions& options) {
                               : above_zero(options.radius, Quantity::kLength, "--radius");
     const double mass = options.mass > 0 ? options.mass : preset == nullptr ? 0 : preset->mass;
     const double drag = options.drag > 0 ? options.drag : preset == nullptr ? 0 : preset->drag;
-    if (!(radius > 0 && mass > 0 && drag > 0))
-        usage("--air needs the ball: --ball PRESET, or --radius, --mass and --drag");
+    return {radius, mass, drag};
+}
+
+Air air_of(const FitCommandOptions& options) {
     Air air;
     air.density = options.density;
-    return {air, radius, mass, drag, -Simulation{}.gravity.z()};
+    return air;
+}
+
+FallInAir fall_in_air(const FitCommandOptions& options) {
+    const FlyingBall ball = flying_ball(options);
+    if (!(ball.radius > 0 && ball.mass > 0 && ball.drag > 0))
+        usage("--air needs the ball: --ball PRESET, or --radius, --mass and --drag");
+    return {air_of(options), ball.radius, ball.mass, ball.drag, -Simulation{}.gravity.z()};
+}
+
+std::string drag_fit(const FitCommandOptions& options, const Measurements& measured) {
+    if (!options.air) usage("--fit-drag is about a ball in air: give --air");
+    if (options.drag > 0) usage("--fit-drag finds the drag: leave out --drag");
+    if (!measured.drops.empty())
+        usage(
+            "--fit-drag needs the times between many bounces: --intervals, --wav, or a --csv of "
+            "them; a drop's two heights do not tell drag and restitution apart");
+    if (!options.plot.empty()) usage("-o: --fit-drag has no plot");
+    const FlyingBall ball = flying_ball(options);
+    if (!(ball.radius > 0 && ball.mass > 0))
+        usage("--fit-drag needs the ball: --ball PRESET, or --radius and --mass");
+    std::optional<double> error;
+    if (!options.reading_error.empty())
+        error = above_zero(options.reading_error, Quantity::kTime, "--reading-error");
+    const DragFit fit =
+        fit_drag(measured.intervals_s,
+                 {air_of(options), ball.radius, ball.mass, -Simulation{}.gravity.z()}, error);
+    return options.json ? drag_fit_json(fit, options.name) : drag_fit_text(fit, options.name);
 }
 
 FitOptions fit_options(const FitCommandOptions& options, const Measurements& measured) {
@@ -163,6 +199,21 @@ int fit(const FitCommandOptions& options, const Interrupt& interrupt) {
                         "'-', at most {} characters",
                         options.name, kMaxNameLength));
     const Measurements measured = measurements(options);
+    if (options.fit_drag) {
+        write_standard_output(drag_fit(options, measured));
+        return kExitDone;
+    }
+    if (options.over_speed) {
+        if (measured.drops.empty())
+            usage("--over-speed needs drops from several heights: --drop and --rebound, or --csv");
+        const SpeedFit found = fit_over_speed(measured.drops, fit_options(options, measured));
+        if (!options.plot.empty())
+            write_plot(speed_fit_plot(found), options.plot, existing_of(options.overwrite),
+                       interrupt.token());
+        write_standard_output(options.json ? speed_fit_json(found, options.name)
+                                           : speed_fit_text(found, options.name));
+        return kExitDone;
+    }
     const RestitutionFit found = fit_restitution(measured, fit_options(options, measured));
     const VirtualBodyLine line =
         virtual_body_line(found.restitution, options.constant, options.velocity);
@@ -237,6 +288,21 @@ void add_air(CLI::App& command, FitCommandOptions& options) {
         ->type_name("C");
 }
 
+/// What else than one coefficient may be asked for; neither has a virtual body.
+void add_laws(CLI::App& command, FitCommandOptions& options, CLI::Option& constant,
+              CLI::Option& velocity) {
+    auto* over_speed = command.add_flag(
+        "--over-speed", options.over_speed,
+        "A coefficient that falls with the speed, a power law, from drops of several heights "
+        "(default: one for all)");
+    auto* drag = command.add_flag(
+        "--fit-drag", options.fit_drag,
+        "The drag coefficient too, from the times between many bounces in --air (default: --drag, "
+        "or --ball's)");
+    for (auto* law : {over_speed, drag}) law->excludes(&constant)->excludes(&velocity);
+    over_speed->excludes(drag);
+}
+
 }  // namespace
 
 void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
@@ -248,20 +314,22 @@ void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         "  carom fit --drop 180cm --rebound 129cm -o line.svg\n"
         "  carom fit --intervals 0.86,0.73,0.62\n"
         "  carom fit --wav bounces.wav\n"
-        "  carom fit --intervals 0.434,0.380,0.335 --air --ball table_tennis\n");
+        "  carom fit --intervals 0.434,0.380,0.335 --air --ball table_tennis\n"
+        "  carom fit --csv heights.csv --over-speed -o law.svg\n"
+        "  carom fit --wav bounces.wav --air --ball table_tennis --fit-drag\n");
     add_sources(*command, *options);
     add_air(*command, *options);
     constexpr double kMost = 1e9;
-    command->add_option("--constant", options->constant, "K of Eq. 7 in 1/s")
-        ->check(CLI::Range(1e-9, kMost))
-        ->type_name("K")
-        ->capture_default_str();
-    command
-        ->add_option("--velocity", options->velocity,
-                     "v of the suggested virtual body in m/s; x follows")
-        ->check(CLI::Range(1e-9, kMost))
-        ->type_name("V")
-        ->capture_default_str();
+    auto* constant = command->add_option("--constant", options->constant, "K of Eq. 7 in 1/s")
+                         ->check(CLI::Range(1e-9, kMost))
+                         ->type_name("K")
+                         ->capture_default_str();
+    auto* velocity = command
+                         ->add_option("--velocity", options->velocity,
+                                      "v of the suggested virtual body in m/s; x follows")
+                         ->check(CLI::Range(1e-9, kMost))
+                         ->type_name("V")
+                         ->capture_default_str();
     command->add_option("--name", options->name, "Name of the material in the snippet")
         ->type_name("NAME")
         ->capture_default_str();
@@ -272,6 +340,7 @@ void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_flag("-y,--overwrite", options->overwrite,
                       "Replace the plot (default: it is kept, exit code 4)");
     command->add_flag("--json", options->json, "Result as JSON");
+    add_laws(*command, *options, *constant, *velocity);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return fit(*options, interrupt); };
     });

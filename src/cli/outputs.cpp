@@ -87,6 +87,11 @@ void require_new_frames(const std::string& pattern, const FrameRanges& frames) {
 
 bool OutputRequest::is_film() const { return find_film_format(name_of(*this)) != nullptr; }
 
+bool OutputRequest::has_sound() const {
+    const FilmFormat* kind = find_film_format(name_of(*this));
+    return kind != nullptr && kind->sound != nullptr;
+}
+
 void check_output_names(const std::vector<OutputRequest>& outputs,
                         const std::vector<NamedFile>& other_outputs,
                         const std::vector<NamedFile>& inputs) {
@@ -139,6 +144,7 @@ FilmOptions film_options(const Scene& scene, const EncodingOptions& encoding) {
     film.threads = encoding.threads;
     film.title = scene.title;
     film.existing = encoding.existing;
+    film.sound.wanted = scene.film.sound;
     return film;
 }
 
@@ -206,6 +212,8 @@ std::string origin_text(const FilmSource& source, const FilmChoice& choice) {
         origin, frames.front(), frames.back(), source.count, fps.numerator, fps.denominator, ""};
     part.settings = fmt::format("{} {} {} {}", choice.codec->name, choice.level, choice.preset,
                                 pixel_format_info(choice.pixels).name);
+    if (source.scene.film.sound && choice.format->sound != nullptr)
+        part.settings += fmt::format(", sound {}", choice.format->sound->name);
     if (source.second != nullptr) part.settings += ", against " + against_of(source);
     return part.text();
 }
@@ -247,6 +255,8 @@ std::unique_ptr<FrameSink> open_output(const OutputRequest& output, const FilmSo
     }
     FilmOptions film = film_options(source.scene, encoding);
     film.comment = origin_text(source, choose_film(name_of(output), film));
+    if (source.sound != nullptr)
+        film.sound = {true, &source.sound->samples, source.sound->first_frame};
     if (output.path == "-") return make_film_stream(output.format, film, kWaitingFrames);
     return make_threaded_sink(make_film_writer(output.path, film), kWaitingFrames);
 }

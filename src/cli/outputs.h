@@ -10,6 +10,7 @@
 #include "cli/distinct_files.h"
 #include "media/film_choice.h"
 #include "media/frame_sink.h"
+#include "report/film_sound.h"
 #include "scene/frame_ranges.h"
 #include "scene/scene.h"
 
@@ -33,6 +34,8 @@ struct OutputRequest {
     std::string format;  ///< for "-" only: png, or the extension of a film
 
     bool is_film() const;
+    /// Whether it is a film of a kind that holds sound.
+    bool has_sound() const;
 };
 
 /// Refuses names that say no format, and two that are one: among the `-o`, `other_outputs` and
@@ -63,8 +66,9 @@ struct FilmSource {
     const Scene& scene;
     const Scene* second = nullptr;  ///< of a film of two runs
     AgainstView view = AgainstView::kGhost;
-    FrameRanges frames;      ///< those that are filmed ...
-    std::int64_t count = 0;  ///< ... of so many
+    FrameRanges frames;                  ///< those that are filmed ...
+    std::int64_t count = 0;              ///< ... of so many
+    const FramesSound* sound = nullptr;  ///< of those; null: silence. Read while outputs are opened
 };
 
 /// What a film says of where it comes from: carom's version and the scene's fingerprint; of a part

@@ -34,6 +34,7 @@
 #include "render/painter.h"
 #include "report/filming.h"
 #include "report/growing_motion.h"
+#include "report/impact_sound.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -137,7 +138,8 @@ void say_end(const Stats& stats, const RenderOptions& options) {
 /// Why frames are drawn when the motion is known to its end; "" where they need not wait.
 std::string why_drawn_at_end(const RenderOptions& options, const FilmScenes& scenes) {
     if (options.dry_run) return "nothing is drawn";
-    if (!options.sounds.empty()) return "the loudest impact gives the level of all sound";
+    if (!options.sounds.empty() || has_sound_track(scenes.scene, requests(options)))
+        return "the loudest impact gives the level of all sound";
     if (options.layers.wanted()) return "layers are written with the frames";
     return why_whole_motion(scenes.scene, scenes.second.has_value());
 }
@@ -150,6 +152,17 @@ void check_sounds_of(const RenderOptions& options) {
                       fmt::format("-o {}: sound is made of the whole film: leave out --frames, "
                                   "--chunk and --resume",
                                   options.sounds.front()));
+}
+
+/// Writes what goes to files of its own, and returns what goes into films.
+std::optional<FramesSound> make_sounds(const RenderOptions& options, const FilmSource& source,
+                                       const Motion& motion) {
+    const bool in_films = has_sound_track(source.scene, requests(options));
+    if (options.sounds.empty() && !in_films) return std::nullopt;
+    SoundSamples sound = impact_sound(source.scene, motion);
+    write_sounds(options.sounds, sound, options.common.existing());
+    if (!in_films) return std::nullopt;
+    return sound_of_frames(std::move(sound), source.scene.film, source.frames);
 }
 
 int render(const RenderOptions& options, const Interrupt& interrupt) {
@@ -177,6 +190,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (!scenes) return kExitInvalidScene;
     const Scene* scene = &scenes->scene;
     check_films(requests(options), *scene, options.encoding);
+    check_sound_tracks(*scene, requests(options), options.sound, options.common.quiet);
     if (scenes->second) require_second_untouched(options, scenes->second->file);
     if (is_done_early(options, *scene)) return nothing_to_do(options);
     if (!options.dry_run) prepare_folders(requests(options));
@@ -216,7 +230,8 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (wanted.empty()) return nothing_to_do(options);
     if (options.resume) remove_leftovers(requests(options), wanted);
 
-    write_sounds(options.sounds, *scene, motion, options.common.existing());
+    const std::optional<FramesSound> sound = make_sounds(options, source, motion);
+    if (sound) source.sound = &*sound;
     stats.frames = options.outputs.empty() ? 0 : source.frames.size();
     stats.frames_kept = options.resume ? wanted.size() - stats.frames : 0;
     if (stats.frames > 0)
@@ -263,6 +278,9 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->check(CLI::IsMember(formats))
         ->type_name(fmt::format("{}", fmt::join(formats, "|")))
         ->capture_default_str();
+    command->add_flag("--sound", options->sound,
+                      "Put the sound of the impacts into the films, as film.sound: true does; an "
+                      "output that holds none is refused (default: as the scene says)");
     auto* frames = command
                        ->add_option("--frames", options->frames,
                                     "Frames to draw, e.g. 0-9,20-40:2,100- (default: all)")
@@ -293,6 +311,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] {
             options->sounds = take_sounds(options->outputs);
+            if (options->sound) options->common.set.push_back("film.sound=true");
             return render(*options, interrupt);
         };
     });

@@ -11,13 +11,13 @@
 #include "cli/distinct_files.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
+#include "cli/motion_output.h"
 #include "cli/options.h"
 #include "cli/shown_simulation.h"
 #include "cli/standard_output.h"
 #include "cli/stats.h"
 #include "core/failure.h"
 #include "media/output_file.h"
-#include "media/text_file.h"
 #include "motion/csv.h"
 #include "report/growing_motion.h"
 #include "scene/frame_rate.h"
@@ -32,26 +32,9 @@ struct SimulateOptions {
     std::string output;
     std::string events;
     std::string rate;
+    std::string format;  ///< of standard output
     CommonOptions common;
 };
-
-/// Runs `write` into a file that appears when whole, or into standard output for "-".
-void write_csv(const std::string& path, Existing existing, const Interrupt& interrupt,
-               const std::function<void(const TextSink&)>& write) {
-    if (path == "-") {
-        write([&](std::string_view text) {
-            interrupt.check();
-            write_standard_output(text);
-        });
-        return;
-    }
-    TextFile file(path, existing);
-    write([&](std::string_view text) {
-        interrupt.check();
-        file.write(text);
-    });
-    file.commit();
-}
 
 /// Shows how far the simulation is, and when it has ended, how far the rows are.
 class RowProgress {
@@ -90,38 +73,46 @@ SimulationReport write_as_computed(const SimulateOptions& options, const Scene& 
                                    const FrameRate& rate, const Interrupt& interrupt) {
     GrowingMotion motion(scene, GrowingMotion::Keep::kNeeded, interrupt.token());
     RowProgress progress(options, interrupt, motion.motion().duration);
-    write_csv(options.output, options.common.existing(), interrupt, [&](const TextSink& sink) {
-        double written = 0;
-        const auto show = [&] { progress.update(motion.known_until(), written); };
-        const auto await = [&](double time) {
-            motion.wait_for({time, time}, show);
-            written = time;
-            show();
-        };
-        write_motion_csv(motion.motion(), rate.numerator, rate.denominator, sink, {}, await);
-    });
+    write_text_output(
+        options.output, options.common.existing(), interrupt, [&](const TextSink& sink) {
+            double written = 0;
+            const auto show = [&] { progress.update(motion.known_until(), written); };
+            const auto await = [&](double time) {
+                motion.wait_for({time, time}, show);
+                written = time;
+                show();
+            };
+            write_motion_csv(motion.motion(), rate.numerator, rate.denominator, sink, {}, await);
+        });
     return motion.finish().report;
 }
 
 /// True where nothing but the rows is asked for, and they can be written as they come to be.
-bool needs_rows_alone(const SimulateOptions& options, const Scene& scene) {
-    return options.events.empty() && options.common.stats_path.empty() && !scene.test &&
-           scene.simulation.duration && why_known_at_end(scene).empty();
+bool needs_rows_alone(const SimulateOptions& options, const Scene& scene, MotionFormat format) {
+    return format == MotionFormat::kCsv && options.events.empty() &&
+           options.common.stats_path.empty() && !scene.test && scene.simulation.duration &&
+           why_known_at_end(scene).empty();
 }
 
 /// The motion and, where they are wanted, the events.
-void write_results(const SimulateOptions& options, const Motion& motion, const FrameRate& rate,
-                   const Interrupt& interrupt) {
+void write_results(const SimulateOptions& options, const Scene& scene, const Motion& motion,
+                   MotionFormat format, const FrameRate& rate, const Interrupt& interrupt) {
     const Existing existing = options.common.existing();
-    write_csv(options.output, existing, interrupt, [&](const TextSink& sink) {
+    {
         Progress progress(options.common.progress_mode(), interrupt, kWritingRows,
                           std::optional(motion.duration));
-        write_motion_csv(motion, rate.numerator, rate.denominator, sink,
-                         [&](double time) { progress.update(time); });
-    });
+        if (format == MotionFormat::kCsv)
+            write_text_output(options.output, existing, interrupt, [&](const TextSink& sink) {
+                write_motion_csv(motion, rate.numerator, rate.denominator, sink,
+                                 [&](double time) { progress.update(time); });
+            });
+        else
+            write_motion(format, scene, motion, options.output, existing, interrupt, rate,
+                         [&](double part) { progress.update(part * motion.duration); });
+    }
     if (options.events.empty()) return;
-    write_csv(options.events, existing, interrupt,
-              [&](const TextSink& sink) { write_events_csv(motion, sink); });
+    write_text_output(options.events, existing, interrupt,
+                      [&](const TextSink& sink) { write_events_csv(motion, sink); });
 }
 
 /// Rows per second: --rate, or the film's frame rate.
@@ -154,6 +145,13 @@ void require_writable_rows(const Scene& scene, const FrameRate& rate, double dur
 
 int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt) {
     Stats stats;
+    const MotionFormat format = motion_format(options.output, options.format);
+    if (!options.rate.empty() && !has_rows(format))
+        throw Failure(
+            FailureKind::kInput,
+            fmt::format("--rate {}: .json and .glb hold the motion itself, not rows of it; "
+                        ".csv and .npz take a rate",
+                        options.rate));
     require_distinct({{"-o", options.output},
                       {"--events", options.events},
                       {"--stats", options.common.stats_path}},
@@ -168,8 +166,9 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
     }
     if (!scene) return kExitInvalidScene;
     const FrameRate rate = row_rate(options, *scene);
-    require_writable_rows(*scene, rate, scene->simulation.duration.value_or(0));
-    if (needs_rows_alone(options, *scene)) {
+    if (has_rows(format))
+        require_writable_rows(*scene, rate, scene->simulation.duration.value_or(0));
+    if (needs_rows_alone(options, *scene, format)) {
         stats.add_warnings(write_as_computed(options, *scene, rate, interrupt),
                            options.common.quiet);
         return kExitDone;
@@ -183,10 +182,10 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
     stats.add_verdict(*scene, simulated.motion, options.common.quiet);
     Stats::warn_of_unrest(simulated.report, options.common.quiet);
 
-    require_writable_rows(*scene, rate, simulated.motion.duration);
+    if (has_rows(format)) require_writable_rows(*scene, rate, simulated.motion.duration);
     {
         const CpuTimer timer(stats.sinks.write_cpu_s);
-        write_results(options, simulated.motion, rate, interrupt);
+        write_results(options, *scene, simulated.motion, format, rate, interrupt);
     }
     if (!options.common.stats_path.empty())
         write_stats(options.common, stats_json(stats, &simulated));
@@ -196,23 +195,32 @@ int simulate_to_files(const SimulateOptions& options, const Interrupt& interrupt
 }  // namespace
 
 void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
-    auto* command = app.add_subcommand("simulate", "Write motion and events as CSV, no picture");
+    auto* command = app.add_subcommand(
+        "simulate", "Write motion and events as CSV, JSON, NumPy's arrays or glTF, no picture");
     auto options = std::make_shared<SimulateOptions>();
     command->footer(
         "  carom simulate scene.yaml -o motion.csv --events events.csv\n"
-        "  carom simulate scene.yaml -o - --rate 1000 | head\n");
+        "  carom simulate scene.yaml -o - --rate 1000 | head\n"
+        "  carom simulate scene.yaml -o motion.glb\n");
     add_scene_argument(*command, options->scene);
-    command->add_option("-o,--output", options->output, "File of the motion, - for standard output")
+    command
+        ->add_option(
+            "-o,--output", options->output,
+            "File of the motion, - for standard output: .npz holds states and events, .json "
+            "pieces and events, .glb bodies and their motion; any other name is CSV")
         ->required()
         ->type_name("MOTION.csv");
+    command->add_option("--format", options->format, "Format of -o - (default: csv)")
+        ->check(CLI::IsMember({"csv", "json", "npz", "glb"}))
+        ->type_name("csv|json|npz|glb");
     command
         ->add_option("--events", options->events,
                      "File of impacts and contacts, - for standard output (default: none)")
         ->type_name("EVENTS.csv");
     command
         ->add_option("--rate", options->rate,
-                     "Rows per second, at most 1e7, e.g. 1000 or 30000/1001 (default: the scene's "
-                     "film.fps)")
+                     "Rows per second of .csv and .npz, at most 1e7, e.g. 1000 or 30000/1001 "
+                     "(default: the scene's film.fps)")
         ->type_name("HZ");
     add_scene_options(*command, options->common);
     add_output_options(*command, options->common);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/markup.h"
 #include "core/measures_text.h"
 #include "golden/golden_report.h"
-#include "golden/markup.h"
 
 namespace carom {
 

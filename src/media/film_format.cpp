@@ -21,26 +21,54 @@ using S = FilmStreaming;
 constexpr int kNoLimit = 1'000'000'000, kOneMillisecondEach = 1000, kWebp = 90, kGif = 50;
 
 constexpr std::array kFormats = {
-    FilmFormat{"mp4", "MP4", "mp4", {"h264", "h265", "av1"}, T::kExact, kNoLimit, S::kFragments},
+    FilmFormat{
+        "mp4", "MP4", "mp4", {"h264", "h265", "av1"}, T::kExact, kNoLimit, S::kFragments, &kAac},
     FilmFormat{"mkv",
                "Matroska",
                "matroska",
                {"h264", "h265", "ffv1", "vp9", "av1"},
                T::kMilliseconds,
                kOneMillisecondEach,
-               S::kAsMade},
+               S::kAsMade,
+               &kOpus},
+    FilmFormat{"mov",
+               "QuickTime",
+               "mov",
+               {"prores", "h264", "h265"},
+               T::kExact,
+               kNoLimit,
+               S::kFragments,
+               &kAac},
+    FilmFormat{"webm",
+               "WebM",
+               "webm",
+               {"vp9", "av1"},
+               T::kMilliseconds,
+               kOneMillisecondEach,
+               S::kAsMade,
+               &kOpus},
+    FilmFormat{"gif", "GIF", "gif", {"gif"}, T::kHundredths, kGif, S::kAtTheEnd, nullptr},
+    FilmFormat{"apng", "APNG", "apng", {"apng"}, T::kFraction, kNoLimit, S::kAtTheEnd, nullptr},
+    FilmFormat{"webp", "WebP", nullptr, {"webp"}, T::kMilliseconds, kWebp, S::kAtTheEnd, nullptr},
     FilmFormat{
-        "mov", "QuickTime", "mov", {"prores", "h264", "h265"}, T::kExact, kNoLimit, S::kFragments},
-    FilmFormat{
-        "webm", "WebM", "webm", {"vp9", "av1"}, T::kMilliseconds, kOneMillisecondEach, S::kAsMade},
-    FilmFormat{"gif", "GIF", "gif", {"gif"}, T::kHundredths, kGif, S::kAtTheEnd},
-    FilmFormat{"apng", "APNG", "apng", {"apng"}, T::kFraction, kNoLimit, S::kAtTheEnd},
-    FilmFormat{"webp", "WebP", nullptr, {"webp"}, T::kMilliseconds, kWebp, S::kAtTheEnd},
-    FilmFormat{"y4m", "YUV4MPEG2", "yuv4mpegpipe", {"y4m"}, T::kRate, kNoLimit, S::kAsMade},
-    FilmFormat{"raw", "raw video", "rawvideo", {"raw"}, T::kRate, kNoLimit, S::kAsMade},
+        "y4m", "YUV4MPEG2", "yuv4mpegpipe", {"y4m"}, T::kRate, kNoLimit, S::kAsMade, nullptr},
+    FilmFormat{"raw", "raw video", "rawvideo", {"raw"}, T::kRate, kNoLimit, S::kAsMade, nullptr},
 };
 
 constexpr int kMost16Bits = 65535;
+
+template <class Wanted>
+std::string extensions(const Wanted& wanted) {
+    std::vector<std::string> names;
+    for (const FilmFormat& format : kFormats)
+        if (wanted(format)) names.push_back(fmt::format(".{}", format.extension));
+    std::string text;
+    for (const std::string& name : names) {
+        const bool last = &name == &names.back();
+        text += (text.empty() ? "" : last ? " or " : ", ") + name;
+    }
+    return text;
+}
 
 }  // namespace
 
@@ -77,15 +105,11 @@ const FilmFormat& film_format(const std::string& path) {
 }
 
 std::string film_extensions(bool alpha) {
-    std::vector<std::string> names;
-    for (const FilmFormat& format : kFormats)
-        if (!alpha || format.has_alpha()) names.push_back(fmt::format(".{}", format.extension));
-    std::string text;
-    for (const std::string& name : names) {
-        const bool last = &name == &names.back();
-        text += (text.empty() ? "" : last ? " or " : ", ") + name;
-    }
-    return text;
+    return extensions([alpha](const FilmFormat& format) { return !alpha || format.has_alpha(); });
+}
+
+std::string sound_film_extensions() {
+    return extensions([](const FilmFormat& format) { return format.sound != nullptr; });
 }
 
 void require_time_stamps(const FilmFormat& format, const std::string& path, int fps_numerator,

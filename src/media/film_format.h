@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "media/film_codec.h"
+#include "media/sound_codec.h"
 
 namespace carom {
 
@@ -35,6 +36,7 @@ struct FilmFormat {
     FilmTimes times;
     int most_per_s;  ///< frames/s: with more some would have one time, or be shown too long
     FilmStreaming streaming;
+    const SoundCodec* sound;  ///< how its sound is coded; null: it holds none
 
     /// Those of `codecs` that are not empty.
     std::span<const std::string_view> codec_names() const;
@@ -53,6 +55,9 @@ const FilmFormat& film_format(const std::string& path);
 /// ".mp4, .mkv or .webm": what the name of a film may end in; of those that keep transparency only,
 /// where `alpha`.
 std::string film_extensions(bool alpha = false);
+
+/// The same of those that hold sound.
+std::string sound_film_extensions();
 
 /// Refuses a frame rate that the container has no time stamps for: Failure(kInput) that says which
 /// it has.

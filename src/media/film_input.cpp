@@ -22,15 +22,16 @@ FilmInput::FilmInput(std::string path) : path_(std::move(path)) {
     check(libav().avformat_find_stream_info(context, nullptr), messages);
     stream_ = libav().av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, &decoder_, 0);
     check(stream_, messages);
+    sound_ = libav().av_find_best_stream(context, AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
 }
 
-bool FilmInput::read(AVPacket& packet) {
+bool FilmInput::read(AVPacket& packet, bool with_sound) {
     const LibavMessages messages;
     while (true) {
         const int result = libav().av_read_frame(context_.get(), &packet);
         if (result == AVERROR_EOF) return false;
         check(result, messages);
-        if (packet.stream_index == stream_) return true;
+        if (packet.stream_index == stream_ || (with_sound && is_sound(packet))) return true;
         libav().av_packet_unref(&packet);
     }
 }

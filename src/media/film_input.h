@@ -13,12 +13,16 @@ class FilmInput {
     /// Throws Failure(kInput) where it cannot be opened or has no video.
     explicit FilmInput(std::string path);
 
-    /// The stream's next packet; false at the end. Throws Failure(kInput).
-    bool read(AVPacket& packet);
+    /// The stream's next packet, or `with_sound` the film's; false at the end. Throws
+    /// Failure(kInput).
+    bool read(AVPacket& packet, bool with_sound = false);
+    bool is_sound(const AVPacket& packet) const { return packet.stream_index == sound_; }
 
     const std::string& path() const { return path_; }
     const AVFormatContext& context() const { return *context_; }
     const AVStream& stream() const { return *context_->streams[stream_]; }
+    /// Null where there is none.
+    const AVStream* sound() const { return sound_ < 0 ? nullptr : context_->streams[sound_]; }
     const AVCodec* decoder() const { return decoder_; }  ///< FFmpeg's own; may be null
     /// The text under this key of the film's, or the stream's, metadata; "" where there is none.
     std::string text(const char* key) const;
@@ -34,6 +38,7 @@ class FilmInput {
     std::unique_ptr<AVFormatContext, Close> context_;
     const AVCodec* decoder_ = nullptr;
     int stream_ = 0;
+    int sound_ = -1;  ///< negative: none
 };
 
 }  // namespace carom

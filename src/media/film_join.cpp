@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/failure.h"
@@ -11,6 +13,8 @@
 #include "media/film_input.h"
 #include "media/film_muxer.h"
 #include "media/film_part.h"
+#include "media/sound_join.h"
+#include "media/sound_track.h"
 
 namespace carom {
 
@@ -25,6 +29,8 @@ struct Part {
     std::string title;
     ParametersPtr parameters;
     bool alpha_beside = false;
+    const SoundCodec* sound_codec = nullptr;  ///< null: it is silent
+    ParametersPtr sound{};
 };
 
 /// Containers of one family, whose time stamps and codec headers are of one kind: FFmpeg names its
@@ -62,6 +68,19 @@ FilmPart part_of(const FilmInput& input) {
                     input.path()));
 }
 
+/// Takes up what the part says of its sound.
+void describe_sound(Part& part, const FilmInput& input, const LibavMessages& messages) {
+    part.sound_codec = sound_codec_of(part.path, part.said);
+    if (part.sound_codec == nullptr) return;
+    if (input.sound() == nullptr)
+        refuse(fmt::format("'{}' is not what it says it is: its sound is missing", part.path));
+    part.sound.reset(allocated(libav().avcodec_parameters_alloc()));
+    input.check(libav().avcodec_parameters_copy(part.sound.get(), input.sound()->codecpar),
+                messages);
+    part.sound->frame_size = part.sound_codec->packet_samples;
+    set_skip(*part.sound, part.sound_codec->delay);
+}
+
 Part describe(const std::string& path, const FilmFormat& format, const std::string& output) {
     const FilmInput input(path);
     require_container(input, format, output);
@@ -80,6 +99,7 @@ Part describe(const std::string& path, const FilmFormat& format, const std::stri
     part.parameters->sample_aspect_ratio = {1, 1};
     // Matroska has names of its own for codecs.
     if (format.times != FilmTimes::kExact) part.parameters->codec_tag = 0;
+    describe_sound(part, input, messages);
     return part;
 }
 
@@ -115,7 +135,8 @@ void require_alike(const Part& a, const Part& b) {
     if (a.said.count != b.said.count)
         differ("are parts of films of other lengths", fmt::format("{} frames", a.said.count),
                fmt::format("{} frames", b.said.count));
-    if (!have_one_header(pa, pb) || a.alpha_beside != b.alpha_beside)
+    const bool one_sound = !a.sound || have_one_header(*a.sound, *b.sound);
+    if (!have_one_header(pa, pb) || a.alpha_beside != b.alpha_beside || !one_sound)
         refuse(fmt::format("'{}' and '{}' come from different encoders: their headers differ",
                            a.path, b.path));
 }
@@ -144,12 +165,18 @@ void require_every_frame_once(const std::vector<Part>& parts) {
 /// A part's packets, in the order of decoding, with the places of their frames.
 class PartReader {
   public:
-    explicit PartReader(const Part& part)
-        : input_(part.path), frame_s_{part.said.fps_denominator, part.said.fps_numerator} {}
+    static constexpr std::int64_t kSound = std::numeric_limits<std::int64_t>::min();
 
-    /// False at the end. `frame` is counted from the part's first.
+    explicit PartReader(const Part& part)
+        : input_(part.path),
+          has_sound_(part.sound != nullptr),
+          frame_s_{part.said.fps_denominator, part.said.fps_numerator} {}
+
+    /// False at the end. `frame` is counted from the part's first; of a packet of sound negative.
     bool read(AVPacket& packet, std::int64_t& frame) {
-        if (!input_.read(packet)) return false;
+        frame = kSound;
+        if (!input_.read(packet, has_sound_)) return false;
+        if (input_.is_sound(packet)) return true;
         if (packet.pts == AV_NOPTS_VALUE)
             refuse(fmt::format("'{}' has a frame without a time", input_.path()));
         // The first to be decoded is the first to be seen: nothing stands before it.
@@ -161,10 +188,16 @@ class PartReader {
 
   private:
     FilmInput input_;
+    bool has_sound_;
     AVRational frame_s_;
     bool begun_ = false;
     std::int64_t first_pts_ = 0;
 };
+
+std::optional<SoundJoin> sound_join(const Part& part) {
+    if (part.sound_codec == nullptr) return std::nullopt;
+    return std::make_optional<SoundJoin>(*part.sound_codec);
+}
 
 /// Reads a part from end to end: refuses it unless it begins with a keyframe and holds each of its
 /// frames once. Returns by how many places at most a packet is decoded later than its frame is
@@ -173,6 +206,8 @@ std::int64_t examined_delay(const Part& part, const JoinHooks& hooks) {
     const PacketPtr packet(allocated(libav().av_packet_alloc()));
     PartReader reader(part);
     std::vector<bool> seen(static_cast<std::size_t>(part.said.frames()));
+    std::optional<SoundJoin> sound = sound_join(part);
+    if (sound) sound->begin(part.said);
     std::int64_t packets = 0, delay = 0, frame = 0;
     const auto damaged = [&](const std::string& why) {
         refuse(fmt::format("'{}' is not what it says it is, frames {} to {}: {}", part.path,
@@ -180,6 +215,11 @@ std::int64_t examined_delay(const Part& part, const JoinHooks& hooks) {
     };
     while (reader.read(*packet, frame)) {
         if (hooks.check) hooks.check();
+        if (frame == PartReader::kSound) {
+            sound->take(*packet, nullptr);
+            libav().av_packet_unref(packet.get());
+            continue;
+        }
         const bool is_keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
         libav().av_packet_unref(packet.get());
         if (packets == 0 && !is_keyframe) damaged("it does not begin with a keyframe");
@@ -193,6 +233,7 @@ std::int64_t examined_delay(const Part& part, const JoinHooks& hooks) {
     }
     if (packets < part.said.frames())
         damaged(fmt::format("it holds {} of these {} frames", packets, part.said.frames()));
+    if (sound) sound->end(part.path);
     return delay;
 }
 
@@ -203,6 +244,10 @@ FilmStream stream_of(const Part& part) {
         throw std::bad_alloc();
     stream.time_base = {part.said.fps_denominator, part.said.fps_numerator};
     stream.alpha_beside = part.alpha_beside;
+    if (!part.sound) return stream;
+    stream.sound.reset(allocated(libav().avcodec_parameters_alloc()));
+    if (libav().avcodec_parameters_copy(stream.sound.get(), part.sound.get()) < 0)
+        throw std::bad_alloc();
     return stream;
 }
 
@@ -211,11 +256,18 @@ FilmStream stream_of(const Part& part) {
 void copy_packets(const std::vector<Part>& parts, std::int64_t delay, FilmMuxer& muxer,
                   const JoinHooks& hooks) {
     const PacketPtr packet(allocated(libav().av_packet_alloc()));
+    std::optional<SoundJoin> sound = sound_join(parts.front());
     std::int64_t packets = 0, frame = 0;
     for (const Part& part : parts) {
         PartReader reader(part);
+        if (sound) sound->begin(part.said);
         while (reader.read(*packet, frame)) {
             if (hooks.check) hooks.check();
+            if (frame == PartReader::kSound) {
+                sound->take(*packet, &muxer);
+                libav().av_packet_unref(packet.get());
+                continue;
+            }
             packet->pts = part.said.first + frame;
             packet->dts = packets++ - delay;
             packet->duration = 1;

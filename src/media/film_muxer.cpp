@@ -72,11 +72,27 @@ FilmMuxer::FilmMuxer(const std::string& url, const std::string& path, const Film
     if (film.parameters->codec_id == AV_CODEC_ID_HEVC && format.times == FilmTimes::kExact)
         stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
     if (film.alpha_beside) stream->codecpar->format = AV_PIX_FMT_YUVA420P;
+    if (film.sound) add_sound(*film.sound, format, messages);
     set_text("title", title);
     set_text("comment", comment);
 
     check(libav().avio_open(&context->pb, context->url, AVIO_FLAG_WRITE), "write", messages);
     write_header(format, into_pipe);
+}
+
+void FilmMuxer::add_sound(const AVCodecParameters& parameters, const FilmFormat& format,
+                          const LibavMessages& messages) {
+    AVStream* stream = allocated(libav().avformat_new_stream(context_.get(), nullptr));
+    check(libav().avcodec_parameters_copy(stream->codecpar, &parameters), "describe the sound of",
+          messages);
+    stream->codecpar->codec_tag = 0;  // each family of containers has names of its own
+    stream->time_base = {1, parameters.sample_rate};
+    if (format.times == FilmTimes::kMilliseconds) {
+        // Readers take the codec's delay from the times in the file; the muxer does not add it, but
+        // would delay the pictures.
+        sound_delay_ = parameters.initial_padding;
+        context_->avoid_negative_ts = 0;
+    }
 }
 
 void FilmMuxer::set_text(const char* key, const std::string& text) {
@@ -107,10 +123,18 @@ void FilmMuxer::check(int result, const char* action, const LibavMessages& messa
     if (result < 0) throw_libav(FailureKind::kOutput, action, path_, result, messages);
 }
 
-void FilmMuxer::write(AVPacket& packet) {
+void FilmMuxer::write(AVPacket& packet) { write_to(0, time_base_, packet); }
+
+void FilmMuxer::write_sound(AVPacket& packet) {
+    packet.pts += sound_delay_;
+    packet.dts += sound_delay_;
+    write_to(1, {1, context_->streams[1]->codecpar->sample_rate}, packet);
+}
+
+void FilmMuxer::write_to(int stream, AVRational time_base, AVPacket& packet) {
     const LibavMessages messages;
-    libav().av_packet_rescale_ts(&packet, time_base_, context_->streams[0]->time_base);
-    packet.stream_index = 0;
+    libav().av_packet_rescale_ts(&packet, time_base, context_->streams[stream]->time_base);
+    packet.stream_index = stream;
     check(libav().av_interleaved_write_frame(context_.get(), &packet), "write", messages);
     check(context_->pb->error, "write", messages);
 }

@@ -1,16 +1,26 @@
 // The film as a sink of frames: encoder, container, and a name that appears at the end.
+#include <optional>
+
 #include "core/check.h"
 #include "media/film_choice.h"
 #include "media/film_muxer.h"
 #include "media/film_text.h"
 #include "media/frame_sink.h"
 #include "media/output_file.h"
+#include "media/sound_track.h"
 #include "media/video_encoder.h"
 #include "media/webp_film.h"
 
 namespace carom {
 
 namespace {
+
+/// The sound that goes with the pictures; none where the container holds none or none is wanted.
+std::optional<SoundTrack> make_sound(const std::string& path, const FilmFormat& format,
+                                     const FilmOptions& options) {
+    if (options.sound.samples == nullptr || format.sound == nullptr) return std::nullopt;
+    return std::make_optional<SoundTrack>(path, *format.sound, options);
+}
 
 /// Frames in, a container out.
 class FilmEncoding {
@@ -19,7 +29,9 @@ class FilmEncoding {
     FilmEncoding(const std::string& url, const std::string& path, const FilmFormat& format,
                  VideoEncoder& encoder, const FilmOptions& options)
         : encoder_(encoder),
-          muxer_(url, path, format, encoder.stream(), options.title, options.comment) {}
+          frame_s_(encoder.stream().time_base),
+          sound_(make_sound(path, format, options)),
+          muxer_(url, path, format, stream(), options.title, options.comment) {}
 
     void write(const Image& frame) {
         encoder_.encode(frame, [this](AVPacket& packet) { mux(packet); });
@@ -27,21 +39,32 @@ class FilmEncoding {
     void close() {
         encoder_.flush([this](AVPacket& packet) { mux(packet); });
         const double begin = calling_thread_cpu_s();
+        if (sound_) sound_->write_rest(encoder_.frames(), muxer_);
         muxer_.close();
         write_cpu_s_ += calling_thread_cpu_s() - begin;
     }
     SinkTimes times() const {
-        return {encoder_.convert_cpu_s(), encoder_.encode_cpu_s(), write_cpu_s_};
+        const double sound = sound_ ? sound_->encode_cpu_s() : 0;
+        return {encoder_.convert_cpu_s(), encoder_.encode_cpu_s() + sound, write_cpu_s_};
     }
 
   private:
+    FilmStream stream() const {
+        FilmStream stream = encoder_.stream();
+        if (sound_) stream.sound = sound_->parameters();
+        return stream;
+    }
     void mux(AVPacket& packet) {
         const double begin = calling_thread_cpu_s();
+        // Pictures that are decoded first wait for sound up to there.
+        if (sound_) sound_->write_until(static_cast<double>(packet.dts) * av_q2d(frame_s_), muxer_);
         muxer_.write(packet);
         write_cpu_s_ += calling_thread_cpu_s() - begin;
     }
 
     VideoEncoder& encoder_;
+    AVRational frame_s_;
+    std::optional<SoundTrack> sound_;
     FilmMuxer muxer_;
     double write_cpu_s_ = 0;
 };
@@ -107,7 +130,10 @@ class FilmPipe final : public FrameSink {
 }  // namespace
 
 void require_film(const std::string& path, const FilmOptions& options) {
-    find_encoder(path, *choose_film(path, options).codec);
+    const FilmChoice choice = choose_film(path, options);
+    find_encoder(path, *choice.codec);
+    if (options.sound.wanted && choice.format->sound != nullptr)
+        find_encoder(path, *choice.format->sound);
 }
 
 std::unique_ptr<FrameSink> make_film_pipe(int descriptor, const std::string& extension,

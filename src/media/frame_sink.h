@@ -10,6 +10,7 @@
 #include "core/image.h"
 #include "media/output_file.h"
 #include "media/png.h"
+#include "media/wav.h"
 
 namespace carom {
 
@@ -38,6 +39,14 @@ class FrameSink {
     virtual SinkTimes times() const = 0;
 };
 
+/// What is heard in a film; in the containers that hold sound (FilmFormat::sound).
+struct FilmSound {
+    bool wanted = false;                    ///< for require_film()
+    const SoundSamples* samples = nullptr;  ///< of the film with all its frames, at 48 kHz; null
+                                            ///< for silence; read while the sink is made
+    std::int64_t first_frame = 0;           ///< of these, the one that is written first
+};
+
 /// How a film is coded. What is not given is as the kind of film has it; what is given and means
 /// nothing to its codec is refused by name.
 struct FilmOptions {
@@ -54,6 +63,7 @@ struct FilmOptions {
     int threads = 0;                     ///< of the encoder; 0: as many as there are processors
     std::string title;                   ///< metadata, empty for none
     std::string comment;                 ///< metadata, empty for none
+    FilmSound sound{};
     Existing existing = Existing::kReplace;  ///< what stands under the film's name
 };
 

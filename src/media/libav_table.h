@@ -27,8 +27,8 @@ namespace carom {
     X(av_log_set_callback) X(av_opt_set) X(av_opt_set_double) X(av_opt_set_int)                   \
     X(av_pix_fmt_desc_get) X(av_rescale_q) X(av_strerror) X(av_version_info)
 #define CAROM_AVCODEC_FUNCTIONS(X)                                                                \
-    X(av_packet_alloc) X(av_packet_free) X(av_packet_new_side_data) X(av_packet_rescale_ts)       \
-    X(av_packet_unref)                                                                            \
+    X(av_packet_alloc) X(av_packet_free) X(av_packet_free_side_data) X(av_packet_new_side_data)   \
+    X(av_packet_rescale_ts) X(av_packet_unref)                                                    \
     X(avcodec_alloc_context3) X(avcodec_find_decoder) X(avcodec_find_decoder_by_name)             \
     X(avcodec_find_encoder_by_name)                                                               \
     X(avcodec_free_context) X(avcodec_open2)                                                      \

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <iterator>
+
+#include "motion/row_times.h"
 
 namespace carom {
 
@@ -74,22 +75,14 @@ void write_motion_csv(const Motion& motion, int rate_numerator, int rate_denomin
     rows.text("time,ball,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
     rows.end_row();
 
-    // The slack that the format names: a duration of k / rate but for rounding has its row k, and
-    // that row is the duration's own, so that no instant stands twice.
-    constexpr double kSlack = 1e-9;
-    const double intervals = motion.duration * rate_numerator / rate_denominator;
-    const auto last = static_cast<std::int64_t>(std::floor(intervals + kSlack));
-    for (std::int64_t k = 0; k <= last; ++k) {
-        if (k == last && std::abs(intervals - static_cast<double>(k)) <= kSlack) break;
-        const double time = static_cast<double>(k) * rate_denominator / rate_numerator;
-        if (await) await(time);
-        motion_rows(motion, time, rows);
+    const RowTimes times(motion.duration, rate_numerator, rate_denominator);
+    for (std::int64_t k = 0; k < times.count(); ++k) {
+        if (await) await(times[k]);
+        motion_rows(motion, times[k], rows);
         if (!progress || rows.pieces() == told) continue;
         told = rows.pieces();
-        progress(time);
+        progress(times[k]);
     }
-    if (await) await(motion.duration);
-    motion_rows(motion, motion.duration, rows);
     rows.flush();
 }
 

@@ -17,6 +17,11 @@ FallInAir::FallInAir(const Air& air, double radius, double mass, double drag, do
     terminal_ = std::sqrt(2 * mass * gravity_ / (air.density * area * drag));
 }
 
+double FallInAir::impact_speed(double drop) const {
+    const double q = terminal_ * terminal_ / (2 * gravity_);
+    return terminal_ * std::sqrt(-std::expm1(-drop / q));
+}
+
 double FallInAir::restitution(double drop, double rebound) const {
     const double q = terminal_ * terminal_ / (2 * gravity_);
     return std::sqrt(std::expm1(rebound / q) / -std::expm1(-drop / q));

@@ -15,6 +15,8 @@ class FallInAir {
     FallInAir(const Air& air, double radius, double mass, double drag, double gravity);
 
     double terminal_speed() const { return terminal_; }  ///< m/s
+    /// At the end of a fall [m], m/s.
+    double impact_speed(double drop) const;
     /// Of a drop and its rebound [m].
     double restitution(double drop, double rebound) const;
     /// Seconds from an impact to the next of what leaves with `speed` [m/s], and their change with

@@ -197,26 +197,8 @@ void warn_of_half_friction(Build& build) {
     warn_of_half(build, {"rolling", &Material::rolling, &PairRule::rolling});
 }
 
-namespace {
-
-/// The method `fixed` has no resistance to rolling or pivoting.
-void warn_of_fixed(Build& build) {
-    if (build.scene.simulation.method != Method::kFixed) return;
-    for (const Node* material : build.material_nodes)
-        for (const char* key : {"rolling", "pivoting"}) {
-            const Node* node = material == nullptr ? nullptr : material->find(key);
-            if (node != nullptr && node->valid)
-                build.report.warning(*node, fmt::format("the method 'fixed' leaves '{}' out; "
-                                                        "the method 'exact' has it",
-                                                        key));
-        }
-}
-
-}  // namespace
-
 void warn_without_friction(Build& build) {
     const Scene& scene = build.scene;
-    warn_of_fixed(build);
     std::set<int> rough;  // materials that have friction, with a partner at least
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         if (scene.materials[i].friction.value_or(0) > 0) rough.insert(static_cast<int>(i));

@@ -135,6 +135,8 @@ void build_film(Build& build) {
     film.fps = read_frame_rate(fields);
     film.start = fields.number("start");
     film.shutter_deg = fields.number("shutter_deg");
+    const Node* sound = fields.find("sound");
+    film.sound = sound != nullptr && sound->text == "true";
     read_speed(build, fields);
     if (const Node* stills = fields.find("stills"))
         for (const Node& still : stills->children) film.stills.push_back(node_number(still));

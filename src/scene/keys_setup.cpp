@@ -338,6 +338,13 @@ std::vector<KeySpec> setup_keys() {
          .doc = "Motion blur: a picture is exposed for shutter_deg / 360 of the time between two "
                 "frames, half of it before its instant and half after; 0 for none.",
          .example = "180"},
+        {.section = kFilm,
+         .key = "sound",
+         .forms = kBool,
+         .fallback = false,
+         .doc = "The sound of the impacts as a track of the film: AAC in .mp4 and .mov, Opus in "
+                ".mkv and .webm; the other formats hold none, which is said.",
+         .example = "true"},
 
         {.section = kSpeedKey,
          .key = "time",

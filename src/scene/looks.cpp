@@ -1,7 +1,10 @@
 #include "scene/looks.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -53,6 +56,18 @@ Color parse_color(const std::string& text) {
     const std::string_view view = digits;
     return {hex_channel(view.substr(0, 2)), hex_channel(view.substr(2, 2)),
             hex_channel(view.substr(4, 2))};
+}
+
+std::string color_text(const Color& color) {
+    const auto code = [](double channel) { return std::lround(255 * channel); };
+    return fmt::format("#{:02x}{:02x}{:02x}", code(color.r), code(color.g), code(color.b));
+}
+
+const char* style_word(LookStyle style) {
+    for (const StyleRow& row : kStyles)
+        if (row.style == style) return row.word;
+    CAROM_CHECK(static_cast<int>(style), ==, -1);
+    return "";
 }
 
 LookStyle parse_style(const std::string& word) {

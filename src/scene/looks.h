@@ -12,6 +12,11 @@ Color parse_color(const std::string& text);
 
 /// The style of a word of the table of keys; an unknown one is a Bug.
 LookStyle parse_style(const std::string& word);
+/// The word of the table of keys that means the style.
+const char* style_word(LookStyle style);
+
+/// "#rrggbb", rounded to the nearest.
+std::string color_text(const Color& color);
 
 /// A style in its own two colours: what a look has that names only a style, and what presets have.
 Look style_look(LookStyle style);

@@ -165,6 +165,7 @@ struct Film {
     std::vector<double> stills;  ///< s of the motion
     /// Part of a frame's film time, in degrees of 360, over which a picture is exposed; 0: none.
     double shutter_deg = 0;
+    bool sound = false;  ///< a sound track of the impacts, where the container holds one
 };
 
 /// What lies behind the balls: the sky over the surfaces, or nothing. See docs/scene.md.

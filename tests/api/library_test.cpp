@@ -132,6 +132,19 @@ TEST(Library, FilmsAreWholeOrNotThere) {
     EXPECT_THROW(carom::still(two, carom::simulate(two), 0), carom::Error);
 }
 
+TEST(Library, FilmsHaveTheSoundThatTheSceneAsksFor) {
+    const Folder folder;
+    for (const bool sound : {false, true}) {
+        carom::SceneBuilder builder = small();
+        builder.set("film.sound", sound ? "true" : "false");
+        const carom::Scene scene = builder.build();
+        const fs::path path = folder.path / "film.mp4";
+        carom::film(scene, carom::simulate(scene), path.string(), {.overwrite = true});
+        // The box of an AAC track.
+        EXPECT_EQ(sound, bytes_of(path).find("mp4a") != std::string::npos);
+    }
+}
+
 TEST(Library, WorkCanBeStopped) {
     std::stop_source stop;
     stop.request_stop();

@@ -21,8 +21,11 @@ MAY_INCLUDE = {
     "media": {"core"},
     "golden": {"core", "scene", "media"},
     "report": {"core", "geometry", "scene", "motion", "sim", "render", "media"},
+    "export": {"core", "geometry", "scene", "motion", "render", "media"},
+    "page": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report", "export"},
     "api": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
-    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report"},
+    "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report",
+            "export", "page"},
 }
 
 # Folder -> its rooms -> the rooms that each may include, besides itself. What lies beside the rooms
@@ -50,6 +53,7 @@ ROOMS = {
         "tile": {"view"},
         "blend": {"gl", "tile"},
         "element": {"draw2d", "runs", "view"},
+        "texture": {"blend", "gl"},
         "marks": {"draw2d", "element", "runs", "view"},
         "plates": {"draw2d", "element", "runs", "view"},
         "overlay": {"draw2d", "element", "marks", "plates"},
@@ -75,6 +79,9 @@ LIBRARY_HOME = {
     r"(?i)openexr": {"media"},
     r"libdeflate\.h": {"media"},
     r"CLI/": {"cli"},
+    r"minizip/": {"export"},
+    r"event2/": {"cli"},
+    r"zlib\.h": {"media", "page"},
     r"xxhash\.h": {"core"},
 }
 

@@ -331,7 +331,7 @@ TEST(Errors, ColumnsCountCharacters) {
     EXPECT_EQ(
         errors_of("carom: 1\ntitle: \"\xC3\xA9\xE2\x82\xAC\"\nfilm: {\"\xC3\xA9\": 1, fps: 0}"),
         "t.yaml:3:8: error: unknown key '\xC3\xA9'; known here: size, fps, start, speed, "
-        "stills, shutter_deg\n"
+        "stills, shutter_deg, sound\n"
         "t.yaml:3:21: error: 'fps' must be above 0 1/s, not 0\n");
 }
 

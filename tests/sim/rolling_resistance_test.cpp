@@ -338,15 +338,44 @@ TEST(RollingResistance, APileEndsAndGainsNothing) {
     }
 }
 
-TEST(RollingResistance, FixedSaysThatItLeavesItOut) {
-    Scene scene = resisted_scene(0.5, 0.05, 0.001);
+/// v = v0 - mu g t, s = v0^2/(2 mu g), as the step becomes short; and a top's k r^2 w/(p g).
+TEST(RollingResistance, FixedConvergesToTheClosedForms) {
+    for (const Solver solver : {Solver::kWorld, Solver::kQuick}) {
+        double last = 0;
+        for (const double step : {1e-3, 5e-4, 2.5e-4}) {
+            Scene scene = resisted_scene(0.5, 0.05, 0.001);
+            scene.simulation.method = Method::kFixed;
+            scene.simulation.solver = solver;
+            scene.simulation.step = step;
+            add_rolling(scene, Vec3::UnitZ(), {1, 0, 0});
+            const SimulationResult result = run(scene, 3);
+            EXPECT_TRUE(result.report.effects.at("rolling").on);
+            const BallState end = result.motion.balls.front().at(3);
+            const double start = scene.balls.front().position.x();
+            const double way = 1 / (2 * 0.05 * kGravity);
+            const double off = std::abs(end.position.x() - start - way);
+            std::printf("step %g: rolls %.6f m, off by %.2g m\n", step, end.position.x() - start,
+                        off);
+            EXPECT_LT(off, 2 * step);
+            EXPECT_LT(end.velocity.norm(), 1e-9);
+            if (last > 0) {
+                EXPECT_NEAR(0.5, off / last, 0.2);
+            }
+            last = off;
+        }
+    }
+}
+
+TEST(RollingResistance, FixedSlowsATop) {
+    Scene scene = resisted_scene(0.5, 0, 0.002);
     scene.simulation.method = Method::kFixed;
-    add_rolling(scene, Vec3::UnitZ(), {1, 0, 0});
-    const auto effects = run(scene, 0.01).report.effects;
-    EXPECT_FALSE(effects.at("rolling").on);
-    EXPECT_NE(effects.at("rolling").why.find("fixed"), std::string::npos);
-    scene.simulation.method = Method::kExact;
-    EXPECT_TRUE(run(scene, 0.01).report.effects.at("rolling").on);
+    add_plane(scene);
+    add_ball(scene, {0, 0, 0.1});
+    scene.balls.front().spin = {0, 0, 10};
+    const double rate = 0.002 * kGravity / (0.4 * 0.01);  // rad/s^2
+    const Motion motion = run(scene, 3).motion;
+    EXPECT_NEAR(10 - rate, motion.balls.front().at(1).spin.z(), 2 * rate * 0.00025);
+    EXPECT_NEAR(0, motion.balls.front().at(3).spin.norm(), 1e-9);
 }
 
 }  // namespace

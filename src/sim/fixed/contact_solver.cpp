@@ -134,7 +134,7 @@ void ContactSolver::finish(std::vector<Contact>& contacts, const std::vector<Vel
             contact, after[static_cast<std::size_t>(contact.ball)], of_other(contact, after));
         contact.separation_speed = relative.dot(contact.normal);
         contact.slip_after = tangential_part(relative, contact.normal);
-        const Vec3 impulse = rules_.step * from_ode(feedback_[i].f1);
+        const Vec3 impulse = push(i);
         contact.impulse = std::max(impulse.dot(contact.normal), 0.0);
         contact.tangential_impulse = tangential_part(impulse, contact.normal).norm();
     }

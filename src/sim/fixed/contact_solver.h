@@ -57,6 +57,9 @@ class ContactSolver {
     /// Fills what comes "from the step" and removes the joints.
     void finish(std::vector<Contact>& contacts, const std::vector<Velocities>& after);
 
+    /// The last step's impulse on the ball of a contact, N s.
+    Vec3 push(std::size_t contact) const { return rules_.step * from_ode(feedback_[contact].f1); }
+
   private:
     void prepare(Contact& contact, const std::vector<Velocities>& before) const;
     double free_speed(const Contact& contact) const;

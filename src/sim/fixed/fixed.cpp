@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "core/failure.h"
+#include "sim/contact/contact_laws.h"
+#include "sim/contact/rolling_resistance.h"
 #include "sim/fixed/contact_finder.h"
 #include "sim/fixed/contact_solver.h"
 #include "sim/fixed/ode_world.h"
@@ -83,6 +85,7 @@ class FixedRun {
     void add_air();
     void read_state();
     void record();
+    void resist_rolling();
     void watch_for_tunnelling();
     Effect tunnelling() const;
     [[noreturn]] void fail(const std::string& text) const;
@@ -149,6 +152,7 @@ void FixedRun::step() {
     solver_.finish(contacts_, after_);
     log_.add_step(time(), contacts_, after_);
     record();
+    resist_rolling();
     if (!too_far_) watch_for_tunnelling();
     ++steps_;
 }
@@ -164,6 +168,30 @@ void FixedRun::solve() {
         fail(error.what());
     }
     if (!messages.empty()) fail(messages.text());
+}
+
+/// What rolling resistance and pivoting take from the velocities that the step has led to, for the
+/// next one to begin with. Impacts are too short for them.
+void FixedRun::resist_rolling() {
+    const auto resisted = [this](int ball) {
+        const auto b = static_cast<std::size_t>(ball);
+        const Ball& scene_ball = scene_.balls[b];
+        const double r = scene_ball.radius;
+        return ResistedBall{&after_[b], r, scene_ball.mass,
+                            scene_ball.inertia_factor * scene_ball.mass * r * r};
+    };
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const Contact& c = contacts_[i];
+        if (c.impact || !is_resisted(c)) continue;
+        const bool on_surface = c.other.is_surface;
+        const ResistedBall other = on_surface ? ResistedBall{} : resisted(c.other.index);
+        resist(c, {c.impulse, tangential_part(solver_.push(i), c.normal)}, resisted(c.ball),
+               on_surface ? nullptr : &other);
+        for (const int ball : {c.ball, on_surface ? c.ball : c.other.index}) {
+            const Velocities& v = after_[static_cast<std::size_t>(ball)];
+            world_.set_velocities(ball, v.linear, v.spin);
+        }
+    }
 }
 
 /// As the air is at the step's start.
@@ -251,7 +279,6 @@ SimulationResult FixedRun::finish(double duration) {
     result.report.steps = steps_;
     result.report.impacts = log_.impacts();
     result.report.effects = effects_of(scene_, pairs_);
-    leave_out_resistance(result.report);
     result.report.effects[kTunnelling] = tunnelling();
     return result;
 }

@@ -130,6 +130,11 @@ void OdeWorld::accelerate(int ball, const Vec3& linear, const Vec3& spin) {
     dBodyAddTorque(body(ball), torque.x(), torque.y(), torque.z());
 }
 
+void OdeWorld::set_velocities(int ball, const Vec3& linear, const Vec3& spin) {
+    dBodySetLinearVel(body(ball), linear.x(), linear.y(), linear.z());
+    dBodySetAngularVel(body(ball), spin.x(), spin.y(), spin.z());
+}
+
 void OdeWorld::step(double seconds, int iterations) {
     if (iterations > 0) dWorldSetQuickStepNumIterations(world(), iterations);
     const int ok =

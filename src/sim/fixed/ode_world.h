@@ -44,6 +44,9 @@ class OdeWorld {
     /// Adds to what gravity does to a ball in the next step [m/s^2], and to its spin [rad/s^2].
     void accelerate(int ball, const Vec3& linear, const Vec3& spin);
 
+    /// What a ball goes on with [m/s, rad/s], after a step.
+    void set_velocities(int ball, const Vec3& linear, const Vec3& spin);
+
     /// One step of `seconds` with the joints added since clear_contacts().
     /// `iterations` 0: dWorldStep; otherwise dWorldQuickStep.
     void step(double seconds, int iterations);

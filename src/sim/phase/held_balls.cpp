@@ -102,8 +102,31 @@ HeldBalls::Handover HeldBalls::end_phase(int ball, double now) {
     return begin_integrated(ball, now, c, velocities, {});
 }
 
+namespace {
+
+/// Overlaps of more than this fraction of the radius are a step's, not rounding's.
+constexpr double kSteppedOverlap = 1e-9;
+
+/// A contact puts its ball on the surface: where gravity counts that as a rise, out of what a step
+/// has left of an overlap, the speeds pay for it.
+Velocities paid_for_lift(const ExactWorld& world, int ball, const Contact& contact,
+                         const Velocities& velocities) {
+    const ExactBall& b = world.ball(ball);
+    if (!(contact.depth > kSteppedOverlap * b.radius)) return velocities;
+    const double lift = -contact.depth * contact.normal.dot(world.scene.simulation.gravity);
+    const double kinetic =
+        0.5 * (velocities.linear.squaredNorm() +
+               b.inertia_factor * b.radius * b.radius * velocities.spin.squaredNorm());
+    if (!(lift > 0) || lift >= kinetic) return velocities;
+    const double part = std::sqrt(1 - lift / kinetic);
+    return {part * velocities.linear, part * velocities.spin};
+}
+
+}  // namespace
+
 HeldBalls::Handover HeldBalls::begin(int ball, double now, const Contact& contact,
-                                     const Velocities& velocities, const Onset& onset) {
+                                     const Velocities& brought, const Onset& onset) {
+    const Velocities velocities = paid_for_lift(world_, ball, contact, brought);
     const Vec3 v = tangential_part(velocities.linear, contact.normal);
     const SingleContact feature =
         single_contact(world_.surface(contact.other.index).shape, world_.position(ball, now), v,

@@ -86,13 +86,6 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
     return effects;
 }
 
-void leave_out_resistance(SimulationReport& report) {
-    for (const char* name : {"rolling", "pivoting"}) {
-        Effect& effect = report.effects.at(name);
-        if (effect.on) effect = {false, "materials have it, but the method fixed leaves it out"};
-    }
-}
-
 void add_contact_effects(SimulationReport& report, bool in_free_space) {
     report.effects["islands"] =
         report.integrated + report.steps > 0

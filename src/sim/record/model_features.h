@@ -19,7 +19,4 @@ std::map<std::string, Effect> effects_of(const Scene& scene, const PairTable& pa
 /// from the counts of the report.
 void add_contact_effects(SimulationReport& report, bool in_free_space);
 
-/// The method `fixed` has no rolling resistance and no pivoting: says so where materials have it.
-void leave_out_resistance(SimulationReport& report);
-
 }  // namespace carom

@@ -132,7 +132,8 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<SolverConta
         world_->slides[i] = 0;
         if (c.alone && c.on_surface()) follow_slip(c, bodies.front(), fall, i);
         double& target = world_->target[i];
-        target = -std::max(v_n, 0.0) - 2 * std::max(-c.depth, 0.0) / seconds;
+        // The way of a step is its mean speed's: the gap may close, and no more.
+        target = std::min(-v_n - 2 * std::max(-c.depth, 0.0) / seconds, 0.0);
         if (!c.alone && std::abs(v_n + fall.dot(c.normal) - target) <= tie) target -= 2 * tie;
     }
     if (contacts.size() > kManyContacts || !solve_with_ode(bodies, contacts, gravity, seconds)) {

@@ -1,4 +1,4 @@
-#include "golden/markup.h"
+#include "core/markup.h"
 
 #include <array>
 #include <cstdint>
@@ -7,10 +7,9 @@
 
 namespace carom {
 
-std::string escaped(std::string_view text) {
-    constexpr std::size_t kLongest = 1000;
+std::string escaped(std::string_view text, std::size_t longest) {
     std::string result;
-    for (const char c : readable(text, kLongest)) {
+    for (const char c : readable(text, longest)) {
         switch (c) {
             case '&':
                 result += "&amp;";
