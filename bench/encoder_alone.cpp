@@ -49,7 +49,7 @@ int measure(const std::string& path, const std::string& size, const std::string&
         for (std::int64_t k = first; k < end; ++k)
             painter.paint(frame_time(film, k), pictures[static_cast<std::size_t>(k - first)]);
         for (std::int64_t k = first; k < end; ++k)
-            encoder.encode(pictures[static_cast<std::size_t>(k - first)], take);
+            encoder.encode(pictures[static_cast<std::size_t>(k - first)], {}, take);
     }
     encoder.flush(take);
     const double per_frame = 1000.0 / static_cast<double>(frames);

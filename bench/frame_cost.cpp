@@ -126,7 +126,7 @@ Cost cost_of(const Feature& feature, int frames) {
     std::vector<double> each;
     double before = 0;
     for (int k = 0; k < frames; ++k) {
-        painter.paint(0.5 + 1.4 * k / frames, picture);
+        painter.paint_next(0.5 + 1.4 * k / frames, picture);
         const double now = painter.draw_cpu_s() + painter.read_cpu_s();
         (k == 0 ? cost.once_ms : each.emplace_back()) = 1000 * (now - before);
         before = now;

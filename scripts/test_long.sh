@@ -38,6 +38,8 @@ CAROM_KILLS=20 CAROM=build/release-tests/carom CAROM_SOURCE_DIR=. \
 echo "test_long: motions as glTF, read by Khronos' validator; a report in a browser"
 scripts/check_gltf.sh build/release-tests/carom
 scripts/check_report.sh build/release-tests/carom
+echo "test_long: a sweep through Slurm"
+scripts/test_slurm.sh build/release-tests/carom
 
 echo "test_long: film in a browser"
 build/release-tests/carom render scenes/figure9.yaml -o out/figure9.mp4 -y

@@ -10,6 +10,7 @@
 #include "media/threaded_sink.h"
 #include "report/filming.h"
 #include "report/impact_sound.h"
+#include "report/provenance.h"
 #include "scene/film_clock.h"
 
 namespace carom::v1 {
@@ -45,19 +46,9 @@ carom::FilmOptions film_options(const carom::Scene& scene, const FilmOptions& op
     film.threads = options.threads;
     film.title = scene.title;
     film.sound.wanted = scene.film.sound;
-    film.comment = fmt::format("carom {}, scene {:016x}", CAROM_VERSION, scene.fingerprint);
+    film.comment = made_from(scene);
     film.existing = existing_of(options.overwrite);
     return film;
-}
-
-/// As the program's frames: title, maker, scene and instant.
-PngNotes notes_of(const carom::Scene& scene, std::int64_t number) {
-    PngNotes notes;
-    if (!scene.title.empty()) notes.texts.emplace_back("Title", scene.title);
-    notes.texts.emplace_back("Software", "carom " CAROM_VERSION);
-    notes.texts.emplace_back("Scene", fmt::format("{:016x}", scene.fingerprint));
-    notes.texts.emplace_back("Time", fmt::format("{:.9g} s", frame_time(scene.film, number)));
-    return notes;
 }
 
 std::unique_ptr<FrameSink> make_sink(const carom::Scene& scene, const carom::Motion& motion,
@@ -66,7 +57,9 @@ std::unique_ptr<FrameSink> make_sink(const carom::Scene& scene, const carom::Mot
         if (!options.codec.empty() || !options.quality.empty() || options.crf)
             throw Error(path + " is no film: codec, quality and crf mean nothing to PNG frames");
         return make_png_sequence(path, options.threads, existing_of(options.overwrite),
-                                 [&scene](std::int64_t number) { return notes_of(scene, number); });
+                                 [&scene](std::int64_t number) {
+                                     return picture_notes(scene, frame_time(scene.film, number));
+                                 });
     }
     carom::FilmOptions film = film_options(scene, options);
     require_writable(path, options.overwrite);

@@ -36,6 +36,9 @@ constexpr std::array kNumbersAlone = {"PBS_ARRAY_INDEX", "PBS_ARRAYID", "LSB_JOB
 
 [[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
 
+/// "--chunk" of "--chunk auto".
+std::string name_of(const std::string& option) { return option.substr(0, option.find(' ')); }
+
 const char* text_of(const char* name) { return name == nullptr ? nullptr : std::getenv(name); }
 
 /// The variable's number; `fallback` where it is not set, an error where there is none either.
@@ -65,9 +68,9 @@ ArrayTask place_in(const Variables& names, const std::string& option) {
         if (names.count != nullptr && number_of(names.count, option, count) != count)
             usage(
                 fmt::format("{}: an array with gaps ({} tasks from {} to {}) does not say which "
-                            "of how many parts task {} is; give --chunk I/N, e.g. "
-                            "--chunk ${}/N",
-                            option, number_of(names.count, option), first, last, task, names.task));
+                            "of how many parts task {} is; give {} I/N, e.g. {} ${}/N",
+                            option, number_of(names.count, option), first, last, task,
+                            name_of(option), name_of(option), names.task));
     }
     if (step < 1 || task < first || (task - first) % step != 0 || (task - first) / step >= count)
         usage(fmt::format("{}: {}={} is not one of the array's {} tasks", option, names.task, task,
@@ -87,13 +90,14 @@ ArrayTask array_task(const std::string& option) {
     for (const char* name : kNumbersAlone)
         if (std::getenv(name) != nullptr)
             usage(
-                fmt::format("{}: {} does not say of how many tasks; give --chunk I/N, e.g. "
-                            "--chunk ${}/N for an array from 1 to N",
-                            option, name, name));
+                fmt::format("{}: {} does not say of how many tasks; give {} I/N, e.g. {} ${}/N for "
+                            "an array from 1 to N",
+                            option, name, name_of(option), name_of(option), name));
     usage(
         fmt::format("{}: this is no task of an array of Slurm ({}), Grid Engine ({}) or AWS "
-                    "Batch ({}); give --chunk I/N, e.g. --chunk 1/4",
-                    option, kSystems[0].task, kSystems[1].task, kSystems[2].task));
+                    "Batch ({}); give {} I/N, e.g. {} 1/4",
+                    option, kSystems[0].task, kSystems[1].task, kSystems[2].task, name_of(option),
+                    name_of(option)));
 }
 
 }  // namespace carom

@@ -14,6 +14,7 @@
 #include "cli/standard_output.h"
 #include "core/readable.h"
 #include "scene/schema.h"
+#include "sweep/results.h"
 
 namespace carom {
 
@@ -93,13 +94,20 @@ void add_check_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
 }
 
 void add_schema_command(CLI::App& app, Run& run) {
-    auto* command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
+    auto* command = app.add_subcommand("schema", "Print the JSON Schema of scenes or sweeps");
     auto reference = std::make_shared<bool>(false);
+    auto file = std::make_shared<std::string>("scene");
+    command->add_option("file", *file, "Of which files: scene (default) or sweep")
+        ->check(CLI::IsMember({"scene", "sweep"}))
+        ->type_name("scene|sweep");
     command->add_flag("--reference", *reference,
-                      "Print the reference of docs/scene.md (Markdown) instead");
-    command->callback([reference, &run] {
-        run = [reference] {
-            write_standard_output(*reference ? scene_reference_markdown() : scene_json_schema());
+                      "Print the reference of docs/scene.md or docs/sweeps.md (Markdown) instead");
+    command->callback([reference, file, &run] {
+        run = [reference, file] {
+            const FileKind kind = *file == "sweep" ? FileKind::kSweep : FileKind::kScene;
+            std::string text = *reference ? reference_markdown(kind) : json_schema(kind);
+            if (*reference && kind == FileKind::kSweep) text += result_reference_markdown();
+            write_standard_output(text);
             return int{kExitDone};
         };
     });

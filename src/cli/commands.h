@@ -24,6 +24,7 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_report_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_view_command(CLI::App& app, Run& run, const Interrupt& interrupt);
+void add_sweep_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_join_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_figures_command(CLI::App& app, Run& run, const Interrupt& interrupt);
 void add_fit_command(CLI::App& app, Run& run, const Interrupt& interrupt);

@@ -64,8 +64,8 @@ FrameRanges parse_frames(const std::string& text, std::int64_t count) {
     return FrameRanges(std::move(ranges));
 }
 
-FrameRanges parse_chunk(const std::string& text, std::int64_t count) {
-    const std::string option = "--chunk " + text;
+FrameRanges parse_chunk(const std::string& text, std::int64_t count, const std::string& name) {
+    const std::string option = name + " " + text;
     std::int64_t i = 0, n = 0;
     if (text == "auto") {
         const ArrayTask task = array_task(option);
@@ -77,7 +77,7 @@ FrameRanges parse_chunk(const std::string& text, std::int64_t count) {
         i = whole_number(std::string_view(text).substr(0, slash), option);
         n = whole_number(std::string_view(text).substr(slash + 1), option);
     }
-    if (n < 1) usage(option + ": a film has at least one part: --chunk 1/1");
+    if (n < 1) usage(fmt::format("{}: there is at least one part: {} 1/1", option, name));
     if (i < 1 || i > n)
         usage(fmt::format("{}: there are the parts 1/{} to {}/{}", option, n, n, n));
     if (n > kMostChunks) usage(fmt::format("{}: at most {} chunks", option, kMostChunks));

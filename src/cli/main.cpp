@@ -112,6 +112,7 @@ int run_program(int argc, char** argv) {
     add_check_command(app, run, interrupt);
     add_report_command(app, run, interrupt);
     add_view_command(app, run, interrupt);
+    add_sweep_command(app, run, interrupt);
     add_join_command(app, run, interrupt);
     add_compare_command(app, run, interrupt);
     add_golden_command(app, run, interrupt);

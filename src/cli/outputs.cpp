@@ -14,6 +14,7 @@
 #include "media/output_file.h"
 #include "media/output_folder.h"
 #include "media/threaded_sink.h"
+#include "report/provenance.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -188,10 +189,6 @@ FilmChoice chosen_film(const OutputRequest& output, const Scene& scene,
 
 namespace {
 
-std::string origin_of(const Scene& scene) {
-    return fmt::format("carom {}, scene {:016x}", CAROM_VERSION, scene.fingerprint);
-}
-
 /// "" where there is no second run.
 std::string against_of(const FilmSource& source) {
     if (source.second == nullptr) return "";
@@ -202,7 +199,7 @@ std::string against_of(const FilmSource& source) {
 }  // namespace
 
 std::string origin_text(const FilmSource& source, const FilmChoice& choice) {
-    const std::string origin = origin_of(source.scene);
+    const std::string origin = made_from(source.scene);
     const FrameRanges& frames = source.frames;
     if (frames.empty() || frames.size() == source.count) return origin;
     if (frames.size() != frames.back() - frames.front() + 1)
@@ -218,21 +215,10 @@ std::string origin_text(const FilmSource& source, const FilmChoice& choice) {
     return part.text();
 }
 
-namespace {
-
-/// To nine digits: instants that agree but for rounding have one text.
-std::string time_text(double time_s) { return fmt::format("{:.9g} s", time_s); }
-
-}  // namespace
-
 PngNotes png_notes(const Scene& scene, double time_s, const std::optional<double>& dpi) {
     constexpr double kInch_m = 0.0254;
-    PngNotes notes;
+    PngNotes notes = picture_notes(scene, time_s);
     if (dpi) notes.pixels_per_m = *dpi / kInch_m;
-    if (!scene.title.empty()) notes.texts.emplace_back("Title", scene.title);
-    notes.texts.emplace_back("Software", "carom " CAROM_VERSION);
-    notes.texts.emplace_back("Scene", fmt::format("{:016x}", scene.fingerprint));
-    notes.texts.emplace_back("Time", time_text(time_s));
     return notes;
 }
 

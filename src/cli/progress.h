@@ -24,6 +24,7 @@ inline constexpr ProgressWork kSimulatingOther = {"simulate_other", "s",
                                                   "s of the other run simulated"};
 inline constexpr ProgressWork kFilming = {"film", "frames", "frames"};
 inline constexpr ProgressWork kWritingRows = {"write", "s", "s written"};
+inline constexpr ProgressWork kSweeping = {"sweep", "runs", "runs"};
 inline constexpr ProgressWork kJoining = {"join", "frames", "frames joined"};
 
 class Progress {

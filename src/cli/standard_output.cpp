@@ -64,6 +64,10 @@ class FilmStream : public FrameSink {
           film_(make_threaded_sink(make_film_writer(film_path_, options), waiting_frames)) {}
 
     void write(std::int64_t number, const Image& frame) override { film_->write(number, frame); }
+    void write_changed(std::int64_t number, const Image& frame,
+                       const ChangedParts& changed) override {
+        film_->write_changed(number, frame, changed);
+    }
     void finish() override {
         film_->finish();
         copy(film_path_);

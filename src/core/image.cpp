@@ -25,6 +25,19 @@ double luma_off(const std::uint8_t* a, const std::uint8_t* b) {
 
 }  // namespace
 
+void copy_parts(const Image& source, const ChangedParts& parts, Image& copy) {
+    if (parts.all || copy.width_px != source.width_px || copy.height_px != source.height_px) {
+        copy = source;
+        return;
+    }
+    for (const PixelRect& part : parts.parts) {
+        const std::ptrdiff_t left = std::ptrdiff_t{kChannels} * part.left;
+        const std::ptrdiff_t bytes = std::ptrdiff_t{kChannels} * part.width();
+        for (int y = part.top; y < part.bottom; ++y)
+            std::copy_n(source.row(y) + left, bytes, copy.row(y) + left);
+    }
+}
+
 ImageDifference compare_images(const Image& a, const Image& b) {
     ImageDifference result;
     result.same_size = a.width_px == b.width_px && a.height_px == b.height_px;

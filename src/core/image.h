@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/changed_parts.h"
+
 namespace carom {
 
 /// 8-bit sRGB, four bytes a pixel in the order B, G, R, A, alpha premultiplied, rows from the top,
@@ -27,6 +29,10 @@ struct Image {
     }
     bool operator==(const Image&) const = default;
 };
+
+/// Brings `copy`, which may differ from `source` in the given parts, up to date. Of another size it
+/// is copied as a whole.
+void copy_parts(const Image& source, const ChangedParts& parts, Image& copy);
 
 /// What the comparison of two pictures found; channels are compared as bytes.
 struct ImageDifference {

@@ -56,6 +56,7 @@ int set_x264(AVCodecContext& context, const FilmChoice& choice) {
     // Others need the profiles High 10 and High 4:4:4, which x264 takes by itself.
     if (choice.pixels == PixelFormat::kYuv420) set.text("profile", "high");
     return set.number("crf", choice.level)
+        .number("forced-idr", 1)  // a keyframe that is asked for is one to begin at
         .text("x264-params", x264_settings(choice.preset))
         .result();
 }

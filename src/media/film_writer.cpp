@@ -33,8 +33,8 @@ class FilmEncoding {
           sound_(make_sound(path, format, options)),
           muxer_(url, path, format, stream(), options.title, options.comment) {}
 
-    void write(const Image& frame) {
-        encoder_.encode(frame, [this](AVPacket& packet) { mux(packet); });
+    void write(const Image& frame, const ChangedParts& changed) {
+        encoder_.encode(frame, changed, [this](AVPacket& packet) { mux(packet); });
     }
     void close() {
         encoder_.flush([this](AVPacket& packet) { mux(packet); });
@@ -78,7 +78,10 @@ class FilmWriter final : public FrameSink {
           file_(path, options.existing),
           film_(libav_url(file_.temporary_path()), path, format_, encoder_, options) {}
 
-    void write(std::int64_t, const Image& frame) override { film_.write(frame); }
+    void write(std::int64_t, const Image& frame) override { film_.write(frame, {}); }
+    void write_changed(std::int64_t, const Image& frame, const ChangedParts& changed) override {
+        film_.write(frame, changed);
+    }
 
     void finish() override {
         close();
@@ -113,7 +116,10 @@ class FilmPipe final : public FrameSink {
         : encoder_(kName, choice, options, FilmMuxer::wants_global_header(*choice.format)),
           film_(pipe_url(descriptor), kName, *choice.format, encoder_, options) {}
 
-    void write(std::int64_t, const Image& frame) override { film_.write(frame); }
+    void write(std::int64_t, const Image& frame) override { film_.write(frame, {}); }
+    void write_changed(std::int64_t, const Image& frame, const ChangedParts& changed) override {
+        film_.write(frame, changed);
+    }
     void finish() override { film_.close(); }
     std::string keep_partial() override {
         film_.close();

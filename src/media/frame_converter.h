@@ -18,11 +18,13 @@ class FrameConverter {
     explicit FrameConverter(PixelFormat format) : info_(pixel_format_info(format)) {}
 
     /// The planes are as FFmpeg lays them out: of kPalette the second holds 256 colours 0xAARRGGBB;
-    /// alpha is left out where its plane is null.
-    void convert(const Image& image, const FramePlanes& planes);
+    /// alpha is left out where its plane is null. Planes that hold the frame before are brought up
+    /// to date in what has `changed` since.
+    void convert(const Image& image, const ChangedParts& changed, const FramePlanes& planes);
 
   private:
-    void convert_rgb(const Image& image, const FramePlanes& planes);
+    void convert_part(const Image& image, const PixelRect& part, const FramePlanes& planes);
+    void convert_rgb(const Image& image, const PixelRect& part, const FramePlanes& planes);
     void convert_palette(const Image& image, const FramePlanes& planes);
 
     const PixelFormatInfo& info_;

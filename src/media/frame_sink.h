@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/changed_parts.h"
 #include "core/image.h"
 #include "media/output_file.h"
 #include "media/png.h"
@@ -27,6 +28,12 @@ class FrameSink {
     virtual ~FrameSink() = default;
     /// Frames arrive in order; `number` is absolute.
     virtual void write(std::int64_t number, const Image& frame) = 0;
+    /// The same for a caller that knows what differs from the frame before: a sink that keeps what
+    /// it has made of that one makes anew no more than this.
+    virtual void write_changed(std::int64_t number, const Image& frame,
+                               const ChangedParts& /*changed*/) {
+        write(number, frame);
+    }
     /// The same for a caller that needs the pixels no more: a sink that keeps frames for another
     /// thread swaps `frame` for a used one instead of copying it. Afterwards the frame has the same
     /// size, and its pixels mean nothing.

@@ -28,23 +28,24 @@ FrameWorkers::~FrameWorkers() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-void FrameWorkers::push(std::int64_t number, const Image& frame) {
-    if (threads_.empty()) return work_here(number, frame);
-    push_filled(number, [&](Image& slot) { slot = frame; });
+void FrameWorkers::push(std::int64_t number, const Image& frame, const ChangedParts& changed) {
+    if (threads_.empty()) return work_here(number, frame, changed);
+    push_filled(number, changed,
+                [&](Image& slot, const ChangedParts& stale) { copy_parts(frame, stale, slot); });
 }
 
 void FrameWorkers::push_swapped(std::int64_t number, Image& frame) {
-    if (threads_.empty()) return work_here(number, frame);
+    if (threads_.empty()) return work_here(number, frame, {});
     const int width = frame.width_px, height = frame.height_px;
-    push_filled(number, [&](Image& slot) { std::swap(slot, frame); });
+    push_filled(number, {}, [&](Image& slot, const ChangedParts&) { std::swap(slot, frame); });
     // The first ones get an empty picture in exchange.
     if (frame.width_px != width || frame.height_px != height) frame = Image(width, height);
 }
 
-void FrameWorkers::work_here(std::int64_t number, const Image& frame) {
+void FrameWorkers::work_here(std::int64_t number, const Image& frame, const ChangedParts& changed) {
     if (failure_) std::rethrow_exception(failure_);
     try {
-        work_(0, number, frame);
+        work_(0, number, frame, changed);
     } catch (...) {
         failure_ = std::current_exception();
         throw;
@@ -52,7 +53,7 @@ void FrameWorkers::work_here(std::int64_t number, const Image& frame) {
 }
 
 template <class Fill>
-void FrameWorkers::push_filled(std::int64_t number, const Fill& fill) {
+void FrameWorkers::push_filled(std::int64_t number, const ChangedParts& changed, const Fill& fill) {
     Slot slot;
     {
         std::unique_lock lock(mutex_);
@@ -64,8 +65,15 @@ void FrameWorkers::push_filled(std::int64_t number, const Fill& fill) {
         }
     }
     // Only this thread adds frames, so the place stays free while the pixels are copied unlocked.
+    if (slot.place == kNoPlace) {
+        slot.place = stale_.size();
+        stale_.emplace_back();
+    }
+    for (ChangedParts& stale : stale_) stale.add(changed);
     slot.number = number;
-    fill(slot.frame);
+    slot.changed = changed;
+    fill(slot.frame, stale_[slot.place]);
+    stale_[slot.place] = ChangedParts::nothing();
     {
         const std::lock_guard lock(mutex_);
         if (!failure_) waiting_.push_back(std::move(slot));
@@ -92,7 +100,7 @@ void FrameWorkers::run(int worker) {
 
         std::exception_ptr failure;
         try {
-            work_(worker, slot.number, slot.frame);
+            work_(worker, slot.number, slot.frame, slot.changed);
         } catch (...) {
             failure = std::current_exception();
         }

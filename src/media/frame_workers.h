@@ -23,16 +23,19 @@ namespace carom {
 /// where it gives none, push() works itself.
 class FrameWorkers {
   public:
-    /// Called on the threads, `worker` 0 ... threads - 1.
-    using Work = std::function<void(int worker, std::int64_t number, const Image& frame)>;
+    /// Called on the threads, `worker` 0 ... threads - 1; `changed` since the frame that was pushed
+    /// before, which another worker may have got.
+    using Work = std::function<void(int worker, std::int64_t number, const Image& frame,
+                                    const ChangedParts& changed)>;
 
     FrameWorkers(int threads, int capacity, Work work);
     ~FrameWorkers();  ///< drops what waits; no exception
     FrameWorkers(const FrameWorkers&) = delete;
     FrameWorkers& operator=(const FrameWorkers&) = delete;
 
-    /// Copies the frame; waits while the queue is full.
-    void push(std::int64_t number, const Image& frame);
+    /// Copies the frame, of one that is known in part what `changed` since the place in the queue
+    /// was last used; waits while the queue is full.
+    void push(std::int64_t number, const Image& frame, const ChangedParts& changed);
     /// The same without a copy: swaps `frame` for a used one, whose pixels mean nothing.
     void push_swapped(std::int64_t number, Image& frame);
     /// Waits until all frames are done.
@@ -42,10 +45,13 @@ class FrameWorkers {
     struct Slot {
         std::int64_t number = 0;
         Image frame;
+        ChangedParts changed;  ///< since the frame before
+        std::size_t place = kNoPlace;
     };
-    void work_here(std::int64_t number, const Image& frame);
+    static constexpr std::size_t kNoPlace = static_cast<std::size_t>(-1);
+    void work_here(std::int64_t number, const Image& frame, const ChangedParts& changed);
     template <class Fill>
-    void push_filled(std::int64_t number, const Fill& fill);
+    void push_filled(std::int64_t number, const ChangedParts& changed, const Fill& fill);
     void run(int worker);
 
     const std::size_t capacity_;
@@ -55,6 +61,7 @@ class FrameWorkers {
     std::condition_variable ready_;  ///< a frame, or the end
     std::deque<Slot> waiting_;
     std::vector<Slot> spare_;
+    std::vector<ChangedParts> stale_;  ///< of each slot's frame, by its place; push()'s alone
     std::size_t in_work_ = 0;
     bool closed_ = false;
     std::exception_ptr failure_;

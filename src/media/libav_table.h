@@ -23,7 +23,8 @@ namespace carom {
 /// Every function that carom calls: X(its name), by library.
 #define CAROM_AVUTIL_FUNCTIONS(X)                                                                 \
     X(av_cpu_count) X(av_dict_free) X(av_dict_get) X(av_dict_set) X(av_frame_alloc)               \
-    X(av_frame_free) X(av_frame_get_buffer) X(av_frame_make_writable) X(av_get_cpu_flags)         \
+    X(av_frame_free) X(av_frame_get_buffer) X(av_frame_make_writable) X(av_free)                  \
+    X(av_get_cpu_flags) X(av_mallocz)                                                             \
     X(av_log_set_callback) X(av_opt_set) X(av_opt_set_double) X(av_opt_set_int)                   \
     X(av_pix_fmt_desc_get) X(av_rescale_q) X(av_strerror) X(av_version_info)
 #define CAROM_AVCODEC_FUNCTIONS(X)                                                                \

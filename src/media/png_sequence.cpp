@@ -113,7 +113,8 @@ class PngSequence final : public FrameSink {
           folder_(fs::path(frame_path(pattern_, 0)).parent_path().string()),
           encoders_(static_cast<std::size_t>(thread_count(threads))),
           workers_(thread_count(threads), thread_count(threads),
-                   [this](int worker, std::int64_t number, const Image& frame) {
+                   [this](int worker, std::int64_t number, const Image& frame,
+                          const ChangedParts& /*changed*/) {
                        save(encoders_[static_cast<std::size_t>(worker)], number, frame);
                    }) {
         if (!folder_.empty()) prepare_folder(folder_);
@@ -121,7 +122,12 @@ class PngSequence final : public FrameSink {
 
     void write(std::int64_t number, const Image& frame) override {
         CAROM_CHECK(number, >=, 0);
-        workers_.push(number, frame);
+        workers_.push(number, frame, {});
+    }
+    void write_changed(std::int64_t number, const Image& frame,
+                       const ChangedParts& changed) override {
+        CAROM_CHECK(number, >=, 0);
+        workers_.push(number, frame, changed);
     }
     void write_swapped(std::int64_t number, Image& frame) override {
         CAROM_CHECK(number, >=, 0);

@@ -13,12 +13,20 @@ class ThreadedSink final : public FrameSink {
   public:
     ThreadedSink(std::unique_ptr<FrameSink> sink, int capacity)
         : sink_(std::move(sink)),
-          workers_(1, capacity, [this](int, std::int64_t number, const Image& frame) {
-              const std::lock_guard lock(sink_mutex_);
-              sink_->write(number, frame);
-          }) {}
+          workers_(
+              1, capacity,
+              [this](int, std::int64_t number, const Image& frame, const ChangedParts& changed) {
+                  const std::lock_guard lock(sink_mutex_);
+                  sink_->write_changed(number, frame, changed);
+              }) {}
 
-    void write(std::int64_t number, const Image& frame) override { workers_.push(number, frame); }
+    void write(std::int64_t number, const Image& frame) override {
+        workers_.push(number, frame, {});
+    }
+    void write_changed(std::int64_t number, const Image& frame,
+                       const ChangedParts& changed) override {
+        workers_.push(number, frame, changed);
+    }
     void write_swapped(std::int64_t number, Image& frame) override {
         workers_.push_swapped(number, frame);
     }

@@ -1,5 +1,6 @@
 #include "media/yuv420.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -89,27 +90,39 @@ CAROM_VECTOR_LOOP void chroma_row(const std::uint32_t* __restrict blue_red,
 
 }  // namespace
 
-void Yuv420Converter::convert(const Image& image, const Yuv420Planes& planes) {
+void Yuv420Converter::convert(const Image& image, const PixelRect& part,
+                              const Yuv420Planes& planes) {
     CAROM_CHECK(image.width_px % 2, ==, 0);
     CAROM_CHECK(image.height_px % 2, ==, 0);
-    const auto width = static_cast<std::size_t>(image.width_px);
-    blue_red_.resize(width + 1);
-    green_.resize(width + 1);
-    upper_.resize(width);
-    lower_.resize(width);
+    if (part.empty()) return;
+    // Whole pairs, and the one to the right, whose chroma takes in the part's last column.
+    const int left = part.left & ~1, top = part.top & ~1;
+    const int right = std::min(image.width_px, (part.right & ~1) + 2);
+    const int bottom = std::min(image.height_px, (part.bottom + 1) & ~1);
+    const int before = left > 0 ? 1 : 0;  // chroma takes in the pixel to the left
+    const int width = right - left;
+    const auto pixels = static_cast<std::size_t>(before + width);
+    blue_red_.resize(static_cast<std::size_t>(width) + 1);
+    green_.resize(static_cast<std::size_t>(width) + 1);
+    upper_.resize(pixels);
+    lower_.resize(pixels);
+    const int sums_from = 1 - before;
 
-    for (int y = 0; y < image.height_px; y += 2) {
+    for (int y = top; y < bottom; y += 2) {
         // Bytes B, G, R, A are the number 0xAARRGGBB on a little-endian machine.
-        std::memcpy(upper_.data(), image.row(y), image.stride_bytes());
-        std::memcpy(lower_.data(), image.row(y + 1), image.stride_bytes());
-        luma_row(upper_.data(), planes.y + y * planes.y_stride, image.width_px);
-        luma_row(lower_.data(), planes.y + (y + 1) * planes.y_stride, image.width_px);
-        add_rows(upper_.data(), lower_.data(), blue_red_.data() + 1, green_.data() + 1,
-                 image.width_px);
-        blue_red_[0] = blue_red_[1];  // the left edge repeated
-        green_[0] = green_[1];
-        chroma_row(blue_red_.data(), green_.data(), planes.cb + y / 2 * planes.cb_stride,
-                   planes.cr + y / 2 * planes.cr_stride, image.width_px / 2);
+        const std::ptrdiff_t from = std::ptrdiff_t{4} * (left - before);
+        std::memcpy(upper_.data(), image.row(y) + from, 4 * pixels);
+        std::memcpy(lower_.data(), image.row(y + 1) + from, 4 * pixels);
+        luma_row(upper_.data() + before, planes.y + y * planes.y_stride + left, width);
+        luma_row(lower_.data() + before, planes.y + (y + 1) * planes.y_stride + left, width);
+        add_rows(upper_.data(), lower_.data(), blue_red_.data() + sums_from,
+                 green_.data() + sums_from, before + width);
+        if (before == 0) {
+            blue_red_[0] = blue_red_[1];  // the left edge repeated
+            green_[0] = green_[1];
+        }
+        chroma_row(blue_red_.data(), green_.data(), planes.cb + y / 2 * planes.cb_stride + left / 2,
+                   planes.cr + y / 2 * planes.cr_stride + left / 2, width / 2);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/pixel_rect.h"
 
 namespace carom {
 
@@ -33,7 +34,12 @@ struct Yuv420Planes {
 class Yuv420Converter {
   public:
     /// `image` has an even width and height, which the planes share.
-    void convert(const Image& image, const Yuv420Planes& planes);
+    void convert(const Image& image, const Yuv420Planes& planes) {
+        convert(image, {0, 0, image.width_px, image.height_px}, planes);
+    }
+    /// Only what the pixels of a part are seen in; of it the planes are afterwards as if all had
+    /// been converted.
+    void convert(const Image& image, const PixelRect& part, const Yuv420Planes& planes);
 
   private:
     std::vector<std::uint32_t> upper_, lower_;

@@ -38,13 +38,13 @@ Sample* samples(const FramePlanes& planes, std::size_t plane, int y) {
 }
 
 template <int kSampleBits, class Sample>
-void convert_luma(const Image& image, const FramePlanes& planes) {
+void convert_luma(const Image& image, const PixelRect& part, const FramePlanes& planes) {
     constexpr Coefficients c = coefficients(kSampleBits);
     constexpr int kOffset = (16 << (kSampleBits - 8 + kBits)) + (1 << (kBits - 1));
-    for (int y = 0; y < image.height_px; ++y) {
-        const std::uint8_t* p = image.row(y);
+    for (int y = part.top; y < part.bottom; ++y) {
+        const std::uint8_t* p = image.row(y) + std::ptrdiff_t{4} * part.left;
         Sample* out = samples<Sample>(planes, 0, y);
-        for (int x = 0; x < image.width_px; ++x, p += 4)
+        for (int x = part.left; x < part.right; ++x, p += 4)
             out[x] =
                 static_cast<Sample>((c.yr * p[2] + c.yg * p[1] + c.yb * p[0] + kOffset) >> kBits);
     }
@@ -61,25 +61,27 @@ void put_chroma(int b, int g, int r, Sample& cb, Sample& cr) {
 }
 
 template <int kSampleBits, class Sample>
-void convert_chroma(const Image& image, const FramePlanes& planes) {
-    for (int y = 0; y < image.height_px; ++y) {
-        const std::uint8_t* p = image.row(y);
+void convert_chroma(const Image& image, const PixelRect& part, const FramePlanes& planes) {
+    for (int y = part.top; y < part.bottom; ++y) {
+        const std::uint8_t* p = image.row(y) + std::ptrdiff_t{4} * part.left;
         Sample* cb = samples<Sample>(planes, 1, y);
         Sample* cr = samples<Sample>(planes, 2, y);
-        for (int x = 0; x < image.width_px; ++x, p += 4)
+        for (int x = part.left; x < part.right; ++x, p += 4)
             put_chroma<kSampleBits, 0>(p[0], p[1], p[2], cb[x], cr[x]);
     }
 }
 
 template <int kSampleBits, class Sample>
-void convert_halved_chroma(const Image& image, const FramePlanes& planes) {
+void convert_halved_chroma(const Image& image, const PixelRect& part, const FramePlanes& planes) {
     constexpr int kWeightBits = 3;  // (1 + 2 + 1) * (1 + 1) = 8
-    for (int y = 0; y < image.height_px; y += 2) {
+    // The pair to the right takes in the part's last column.
+    const int last = std::min(image.width_px, (part.right & ~1) + 2);
+    for (int y = part.top & ~1; y < part.bottom; y += 2) {
         const std::uint8_t* upper = image.row(y);
         const std::uint8_t* lower = image.row(y + 1);
         Sample* cb = samples<Sample>(planes, 1, y / 2);
         Sample* cr = samples<Sample>(planes, 2, y / 2);
-        for (int x = 0; x < image.width_px; x += 2) {
+        for (int x = part.left & ~1; x < last; x += 2) {
             const int left = 4 * std::max(x - 1, 0), here = 4 * x, right = 4 * (x + 1);
             const auto sum = [&](int c) {
                 return upper[left + c] + lower[left + c] + 2 * (upper[here + c] + lower[here + c]) +
@@ -92,20 +94,21 @@ void convert_halved_chroma(const Image& image, const FramePlanes& planes) {
 
 }  // namespace
 
-void convert_yuv(const Image& image, int bits, bool halved_chroma, const FramePlanes& planes) {
+void convert_yuv(const Image& image, const PixelRect& part, int bits, bool halved_chroma,
+                 const FramePlanes& planes) {
     constexpr int kTen = 10;
     if (bits == kTen) {
-        convert_luma<kTen, std::uint16_t>(image, planes);
+        convert_luma<kTen, std::uint16_t>(image, part, planes);
         if (halved_chroma)
-            convert_halved_chroma<kTen, std::uint16_t>(image, planes);
+            convert_halved_chroma<kTen, std::uint16_t>(image, part, planes);
         else
-            convert_chroma<kTen, std::uint16_t>(image, planes);
+            convert_chroma<kTen, std::uint16_t>(image, part, planes);
         return;
     }
     CAROM_CHECK(bits, ==, 8);
     CAROM_CHECK(halved_chroma, ==, false);  // that is Yuv420Converter
-    convert_luma<8, std::uint8_t>(image, planes);
-    convert_chroma<8, std::uint8_t>(image, planes);
+    convert_luma<8, std::uint8_t>(image, part, planes);
+    convert_chroma<8, std::uint8_t>(image, part, planes);
 }
 
 void copy_alpha(const Image& image, int bits, std::uint8_t* plane, std::ptrdiff_t stride) {

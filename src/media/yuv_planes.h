@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/image.h"
+#include "core/pixel_rect.h"
 
 namespace carom {
 
@@ -16,8 +17,10 @@ struct FramePlanes {
 };
 
 /// The matrix, range, filter and rounding of Yuv420Converter, in 4:4:4 of 8 or 10 bits, or 4:2:0 of
-/// 10 bits. The samples of 10 bits are four times those of 8, rounded once.
-void convert_yuv(const Image& image, int bits, bool halved_chroma, const FramePlanes& planes);
+/// 10 bits. The samples of 10 bits are four times those of 8, rounded once. Only what the pixels of
+/// `part` are seen in is converted.
+void convert_yuv(const Image& image, const PixelRect& part, int bits, bool halved_chroma,
+                 const FramePlanes& planes);
 
 /// Alpha as a plane of its own in full range: a * (2^bits - 1) / 255, rounded.
 void copy_alpha(const Image& image, int bits, std::uint8_t* plane, std::ptrdiff_t stride);

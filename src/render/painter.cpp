@@ -23,6 +23,10 @@ Painter::Painter(Painter&&) noexcept = default;
 Painter& Painter::operator=(Painter&&) noexcept = default;
 
 void Painter::paint(double t, Image& out) { paint_strobe({t}, out); }
+ChangedParts Painter::paint_next(double t, Image& picture) {
+    return picture_->paint_next(t, picture);
+}
+bool Painter::draws_each_anew() const { return picture_->draws_each_anew(); }
 void Painter::paint_strobe(const std::vector<double>& instants, Image& out) {
     picture_->paint(instants, out);
 }

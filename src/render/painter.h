@@ -28,6 +28,15 @@ class Painter {
     /// blur of the film's shutter around it.
     void paint(double t, Image& out);
 
+    /// The next frame of a film: draws what differs from the one before, in the picture that the
+    /// last call has left, and returns what that is; the pixels are those of paint(). Another
+    /// picture, or one whose pixels lie elsewhere in memory, is drawn as a whole.
+    ChangedParts paint_next(double t, Image& picture);
+
+    /// Whether paint_next() finds nothing of the frame before that stays: under a camera that
+    /// moves.
+    bool draws_each_anew() const;
+
     /// Draws the balls of all `instants` [s, increasing, at least one] into one picture, as under a
     /// stroboscope: nearer ones in front, each sharp, with its own shadows. Clock, labels and
     /// trails are those of the last instant.

@@ -30,14 +30,20 @@ std::string Fallback::text() const {
     return fmt::format("[{}]", fmt::join(numbers.begin(), numbers.begin() + count, ", "));
 }
 
-KeyTable::KeyTable() : rows_(setup_keys()), rules_(key_rules()), sections_(section_docs()) {
-    for (KeySpec& row : overlay_keys()) rows_.push_back(std::move(row));
-    for (KeySpec& row : material_keys()) rows_.push_back(std::move(row));
-    for (KeySpec& row : surface_keys()) rows_.push_back(std::move(row));
-    for (KeySpec& row : shape_keys()) rows_.push_back(std::move(row));
-    for (KeySpec& row : ball_keys()) rows_.push_back(std::move(row));
-    for (KeySpec& row : air_keys()) rows_.push_back(std::move(row));
-    for (KeySpec& row : against_keys()) rows_.push_back(std::move(row));
+KeyTable::KeyTable(FileKind kind) : kind_(kind) {
+    using Rows = std::vector<KeySpec> (*)();
+    const Rows of_scene[] = {setup_keys, overlay_keys, material_keys, surface_keys,
+                             shape_keys, ball_keys,    air_keys,      against_keys};
+    if (kind == FileKind::kSweep) {
+        rows_ = sweep_keys();
+        rules_ = sweep_rules();
+        sections_ = sweep_section_docs();
+    } else {
+        for (const Rows rows : of_scene)
+            for (KeySpec& row : rows()) rows_.push_back(std::move(row));
+        rules_ = key_rules();
+        sections_ = section_docs();
+    }
     for (const KeySpec& row : rows_) {
         by_section_[index_of(row.section)].push_back(&row);
         if (row.in_defaults) by_section_[index_of(Section::kBallDefaults)].push_back(&row);

@@ -53,8 +53,21 @@ enum class Section {
     kVelocity,
     kPlot,
     kAgainst,
+    kSweep,  ///< from here on those of a sweep's file
+    kSweepOutputs,
+    kSweepDraw,
+    kSweepRandom,
+    kSweepBalls,
+    kSweepBox,
+    kSweepCamera,
 };
-inline constexpr int kSectionCount = static_cast<int>(Section::kAgainst) + 1;
+inline constexpr int kSectionCount = static_cast<int>(Section::kSweepCamera) + 1;
+
+/// The kinds of files, each with a table of its own.
+enum class FileKind { kScene, kSweep };
+constexpr Section top_section(FileKind kind) {
+    return kind == FileKind::kSweep ? Section::kSweep : Section::kScene;
+}
 
 /// What a value may look like; a key may have several.
 using Forms = unsigned;
@@ -75,6 +88,10 @@ inline constexpr Forms kMap = 1U << 12U;         ///< a mapping of section `chil
 inline constexpr Forms kNamedMaps = 1U << 13U;   ///< a mapping from new names to sections `child`
 inline constexpr Forms kMaps = 1U << 14U;        ///< a list of sections `child`
 inline constexpr Forms kTexts = 1U << 15U;       ///< a list of texts
+inline constexpr Forms kValues = 1U << 16U;      ///< a list of any values, at least one
+inline constexpr Forms kNamedTexts = 1U << 17U;  ///< a mapping from new names to texts
+/// A mapping from paths into a scene to values; one that is a mapping is of section `child`.
+inline constexpr Forms kPaths = 1U << 18U;
 }  // namespace form
 
 enum class NameKind { kNone, kMaterial, kLook, kPreset };
@@ -162,7 +179,11 @@ struct SectionDoc {
 /// The rows, made once for a run and handed around by reference.
 class KeyTable {
   public:
-    KeyTable();
+    explicit KeyTable(FileKind kind = FileKind::kScene);
+    KeyTable(const KeyTable&) = delete;  // what it hands out points into it
+    KeyTable& operator=(const KeyTable&) = delete;
+    KeyTable(KeyTable&&) = default;
+    KeyTable& operator=(KeyTable&&) = default;
 
     /// In the order of the documents; pointers live as long as the table.
     const std::vector<const KeySpec*>& keys(Section section) const;
@@ -171,8 +192,10 @@ class KeyTable {
     const std::vector<Rule>& rules() const { return rules_; }
     const std::vector<SectionDoc>& sections() const { return sections_; }
     const SectionDoc& section_doc(Section section) const;
+    FileKind kind() const { return kind_; }
 
   private:
+    FileKind kind_;
     std::vector<KeySpec> rows_;
     std::vector<Rule> rules_;
     std::vector<SectionDoc> sections_;
@@ -190,5 +213,10 @@ std::vector<KeySpec> air_keys();
 std::vector<KeySpec> against_keys();
 std::vector<Rule> key_rules();
 std::vector<SectionDoc> section_docs();
+
+/// Those of a sweep's file (keys_sweep.cpp).
+std::vector<KeySpec> sweep_keys();
+std::vector<Rule> sweep_rules();
+std::vector<SectionDoc> sweep_section_docs();
 
 }  // namespace carom

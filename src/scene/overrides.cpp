@@ -62,14 +62,14 @@ struct Place {
 /// Puts one value into the tree.
 class Setter {
   public:
-    Setter(const KeyTable& table, Report& report, int source)
-        : table_(table), report_(report), source_(source) {}
+    Setter(const KeyTable& table, Report& report, const ValueOrigin& origin)
+        : table_(table), report_(report), origin_(origin) {}
 
-    void set(Node& root, const std::vector<Step>& steps, Node value);
+    bool set(Node& root, const std::vector<Step>& steps, Node value);
 
   private:
     Node* fail(std::string message) {
-        report_.error_in_source(source_, {}, std::move(message));
+        report_.error_in_source(origin_.source, origin_.mark, std::move(message));
         return nullptr;
     }
     bool follow(Node& root, const std::vector<Step>& steps, Node value);
@@ -84,13 +84,14 @@ class Setter {
 
     const KeyTable& table_;
     Report& report_;
-    int source_;
+    ValueOrigin origin_;
 };
 
 Node Setter::made(Node::Kind kind) const {
     Node node;
     node.kind = kind;
-    node.source = source_;
+    node.source = origin_.source;
+    node.mark = node.key_mark = origin_.mark;
     return node;
 }
 
@@ -217,15 +218,27 @@ bool Setter::follow(Node& root, const std::vector<Step>& steps, Node value) {
     return true;
 }
 
-void Setter::set(Node& root, const std::vector<Step>& steps, Node value) {
+bool Setter::set(Node& root, const std::vector<Step>& steps, Node value) {
     const Node* top = root.find(steps.front().name);
     const std::optional<Node> before = top == nullptr ? std::nullopt : std::optional(*top);
-    if (follow(root, steps, std::move(value))) return;
+    if (follow(root, steps, std::move(value))) return true;
     // A path that leads nowhere must not leave its first steps behind.
     if (before)
         *root.find(before->key) = *before;
     else if (!root.children.empty() && root.children.back().key == steps.front().name)
         root.children.pop_back();
+    return false;
+}
+
+/// The same, with an error in `report` where there is none.
+std::optional<std::vector<Step>> path_steps(const std::string& path, const ValueOrigin& origin,
+                                            Report& report) {
+    std::optional<std::vector<Step>> steps = split_path(path);
+    if (!steps)
+        report.error_in_source(origin.source, origin.mark,
+                               "a path is keys and names joined by dots, and [i] in lists, such as "
+                               "balls.a.mass or film.size[0]");
+    return steps;
 }
 
 std::optional<Node> parse_value(const Override& override, Report& report, int source) {
@@ -252,14 +265,18 @@ void apply_overrides(Node& root, const std::vector<Override>& overrides, const K
                      Report& report) {
     for (const Override& override : overrides) {
         const int source = report.add_source("--set " + override.path);
-        const std::optional<std::vector<Step>> steps = split_path(override.path);
         std::optional<Node> value = parse_value(override, report, source);
-        if (!steps)
-            report.error_in_source(source, {},
-                                   "a path is keys and names joined by dots, and [i] in "
-                                   "lists, such as balls.a.mass or film.size[0]");
-        if (steps && value) Setter(table, report, source).set(root, *steps, std::move(*value));
+        if (value)
+            set_value(root, override.path, std::move(*value), {source}, table, report);
+        else
+            path_steps(override.path, {source}, report);
     }
+}
+
+bool set_value(Node& root, const std::string& path, Node value, const ValueOrigin& origin,
+               const KeyTable& table, Report& report) {
+    const std::optional<std::vector<Step>> steps = path_steps(path, origin, report);
+    return steps && Setter(table, report, origin).set(root, *steps, std::move(value));
 }
 
 }  // namespace carom

@@ -16,4 +16,15 @@ namespace carom {
 void apply_overrides(Node& root, const std::vector<Override>& overrides, const KeyTable& table,
                      Report& report);
 
+/// Where a value comes from: a source of the report and a place in it, for mistakes of the path.
+struct ValueOrigin {
+    int source = 0;
+    SourceMark mark{};
+};
+
+/// Puts one value where `path` leads. False, with an error in `report`, where it leads nowhere; the
+/// tree is then as it was.
+bool set_value(Node& root, const std::string& path, Node value, const ValueOrigin& origin,
+               const KeyTable& table, Report& report);
+
 }  // namespace carom

@@ -18,6 +18,7 @@
 #include "scene/document.h"
 #include "scene/odd_blank.h"
 #include "scene/overrides.h"
+#include "scene/scene_tree.h"
 #include "scene/validate.h"
 
 namespace carom {
@@ -98,34 +99,48 @@ const std::vector<Node>& Build::entries(std::string_view key) const {
     return node != nullptr && node->kind == kind ? node->children : kNone;
 }
 
-SceneResult read_scene(std::string_view text, const std::string& file,
-                       const std::vector<Override>& overrides) {
-    SceneResult result;
-    Report report(file);
-    std::optional<Node> root = parse_document(text, file, report.diagnostics());
+std::optional<Node> parse_scene_tree(std::string_view text, const std::vector<Override>& overrides,
+                                     const KeyTable& table, Report& report) {
+    std::optional<Node> root = parse_document(text, report.file(), report.diagnostics());
     if (root && root->kind != Node::Kind::kMap) {
         report.error(*root, "a scene must be a mapping of keys, such as 'carom: 1'");
         root.reset();
     }
-    if (root) {
-        const KeyTable table;
-        apply_overrides(*root, overrides, table, report);
-        validate_section(*root, Section::kScene, table, report);
-        Scene scene;
-        scene.file = file;
-        scene.fingerprint = fingerprint(*root);
-        Build build{table, report, *root, scene};
-        build_scene(build);
-        if (!report.diagnostics().has_errors()) result.scene = std::move(scene);
-    }
-    result.diagnostics = std::move(report.diagnostics());
-    if (result.diagnostics.has_errors()) point_out_odd_blanks(text, file, result.diagnostics);
-    result.diagnostics.sort();
-    add_source_lines(text, file, result.diagnostics);
+    if (root) apply_overrides(*root, overrides, table, report);
+    return root;
+}
+
+std::optional<Scene> scene_of_tree(Node& root, const KeyTable& table, Report& report) {
+    validate_section(root, Section::kScene, table, report);
+    Scene scene;
+    scene.file = report.file();
+    scene.fingerprint = fingerprint(root);
+    Build build{table, report, root, scene};
+    build_scene(build);
+    if (report.diagnostics().has_errors()) return std::nullopt;
+    return scene;
+}
+
+Diagnostics shown_diagnostics(std::string_view text, Report& report) {
+    Diagnostics all = std::move(report.diagnostics());
+    if (all.has_errors()) point_out_odd_blanks(text, report.file(), all);
+    all.sort();
+    add_source_lines(text, report.file(), all);
+    return all;
+}
+
+SceneResult read_scene(std::string_view text, const std::string& file,
+                       const std::vector<Override>& overrides) {
+    SceneResult result;
+    Report report(file);
+    const KeyTable table;
+    std::optional<Node> root = parse_scene_tree(text, overrides, table, report);
+    if (root) result.scene = scene_of_tree(*root, table, report);
+    result.diagnostics = shown_diagnostics(text, report);
     return result;
 }
 
-std::string read_scene_text(const std::string& path) {
+std::string read_scene_text(const std::string& path, const char* kind) {
     errno = 0;
     if (path == "-") {
         std::string text = read_bounded(std::cin);
@@ -139,8 +154,8 @@ std::string read_scene_text(const std::string& path) {
     std::string text;
     if (stream) text = read_bounded(stream);
     if (!stream.is_open() || stream.bad() || (stream.fail() && !stream.eof()))
-        throw Failure(FailureKind::kInput, fmt::format("cannot read the scene file '{}': {}", path,
-                                                       std::strerror(errno)));
+        throw Failure(FailureKind::kInput, fmt::format("cannot read the {} file '{}': {}", kind,
+                                                       path, std::strerror(errno)));
     return text;
 }
 

@@ -28,9 +28,10 @@ struct SceneResult {
 SceneResult read_scene(std::string_view text, const std::string& file,
                        const std::vector<Override>& overrides = {});
 
-/// The text of a scene file, or of standard input for "-"; of a file that is too large to be a
-/// scene, as much as shows it. Throws Failure(kInput) if the file is missing or unreadable.
-std::string read_scene_text(const std::string& path);
+/// The text of a scene file, or of another `kind` of file; of standard input for "-"; of a file
+/// that is too large to be a scene, as much as shows it. Throws Failure(kInput) if the file is
+/// missing or unreadable.
+std::string read_scene_text(const std::string& path, const char* kind = "scene");
 
 /// Reads a scene file, or standard input for "-".
 /// Throws Failure(kInput) if the file is missing or unreadable.

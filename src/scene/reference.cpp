@@ -98,11 +98,11 @@ std::string catalogue_text() {
 
 }  // namespace
 
-std::string scene_reference_markdown() {
-    const KeyTable table;
+std::string reference_markdown(FileKind kind) {
+    const KeyTable table(kind);
     std::string text;
     for (const SectionDoc& doc : table.sections()) text += section_text(table, doc);
-    return text + catalogue_text();
+    return kind == FileKind::kScene ? text + catalogue_text() : text;
 }
 
 }  // namespace carom

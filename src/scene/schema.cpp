@@ -78,14 +78,17 @@ Json list_schema(const KeySpec& spec, const Json& entry) {
 
 class SchemaWriter {
   public:
+    explicit SchemaWriter(FileKind kind) : table_(kind) {}
+
     Json write() const {
+        const bool sweep = table_.kind() == FileKind::kSweep;
+        const Section top = top_section(table_.kind());
         Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-                       {"title", "carom scene"}};
-        schema.update(section(Section::kScene));
+                       {"title", sweep ? "carom sweep" : "carom scene"}};
+        schema.update(section(top));
         Json& definitions = schema["$defs"] = Json::object();
         for (const SectionDoc& doc : table_.sections())
-            if (doc.section != Section::kScene)
-                definitions[std::string(doc.name)] = section(doc.section);
+            if (doc.section != top) definitions[std::string(doc.name)] = section(doc.section);
         return schema;
     }
 
@@ -139,7 +142,22 @@ class SchemaWriter {
                            {"additionalProperties", reference(spec.child)}});
         if (takes(form::kMaps))
             all.push_back({{"type", "array"}, {"items", reference(spec.child)}});
+        if (takes(form::kValues)) all.push_back({{"type", "array"}, {"minItems", 1}});
+        if (takes(form::kNamedTexts))
+            all.push_back({{"type", "object"},
+                           {"propertyNames", name_schema()},
+                           {"additionalProperties", {{"type", "string"}}}});
+        if (takes(form::kPaths)) all.push_back(paths_schema(spec));
         return all;
+    }
+
+    /// What stands under a path is for the scene to judge, unless it is a mapping.
+    Json paths_schema(const KeySpec& spec) const {
+        Json value = {
+            {"anyOf",
+             {{{"type", {"number", "string", "boolean", "array"}}}, reference(spec.child)}}};
+        return {
+            {"type", "object"}, {"minProperties", 1}, {"additionalProperties", std::move(value)}};
     }
 
     Json property(const KeySpec& spec, Section section) const {
@@ -188,6 +206,6 @@ class SchemaWriter {
 
 }  // namespace
 
-std::string scene_json_schema() { return SchemaWriter().write().dump(2) + "\n"; }
+std::string json_schema(FileKind kind) { return SchemaWriter(kind).write().dump(2) + "\n"; }
 
 }  // namespace carom

@@ -1,14 +1,16 @@
-// The scene format as documents, both made from the table that the reader uses.
+// The formats of files as documents, made from the tables that the readers use.
 #pragma once
 
 #include <string>
 
+#include "scene/keys.h"
+
 namespace carom {
 
-/// JSON Schema (draft 2020-12) of a scene file, pretty-printed.
-std::string scene_json_schema();
+/// JSON Schema (draft 2020-12) of a file, pretty-printed.
+std::string json_schema(FileKind kind);
 
-/// The reference of every key in Markdown, as it stands in docs/scene.md.
-std::string scene_reference_markdown();
+/// The reference of every key in Markdown, as it stands in docs/scene.md and docs/sweeps.md.
+std::string reference_markdown(FileKind kind);
 
 }  // namespace carom

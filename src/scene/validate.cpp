@@ -87,6 +87,9 @@ class Validator {
     bool list(Node& node, const KeySpec& spec);
     bool list_of_maps(Node& node, const KeySpec& spec);
     bool named_maps(Node& node, const KeySpec& spec);
+    bool named_texts(Node& node);
+    bool paths(Node& node, const KeySpec& spec);
+    bool name_of_entry(Node& entry);
     bool number(Node& node, const KeySpec& spec, double number);
     void rule(Node& map, const Rule& rule);
     bool wrong(Node& node, std::string message);
@@ -154,6 +157,7 @@ bool Validator::scalar(Node& node, const KeySpec& spec) {
 }
 
 bool Validator::list(Node& node, const KeySpec& spec) {
+    if ((spec.forms & form::kValues) != 0 && !node.children.empty()) return true;
     const bool numbers = (spec.forms & (form::kNumbers | form::kIntegers)) != 0;
     if (!numbers && (spec.forms & (form::kReferences | form::kTexts)) == 0)
         return wrong_form(node, spec);
@@ -184,15 +188,46 @@ bool Validator::list_of_maps(Node& node, const KeySpec& spec) {
     return node.valid;
 }
 
+/// Whether its key is a name.
+bool Validator::name_of_entry(Node& entry) {
+    if (is_name(entry.key)) return true;
+    report_.error_at_key(
+        entry, fmt::format("{} is not a name: a name is a letter or '_' and then letters, "
+                           "digits, '_' or '-', at most {} characters",
+                           quoted_excerpt(entry.key), kMaxNameLength));
+    return entry.valid = false;
+}
+
+bool Validator::named_texts(Node& node) {
+    for (Node& child : node.children) {
+        bool right = name_of_entry(child);
+        if (child.kind != Node::Kind::kScalar)
+            right = wrong(child,
+                          fmt::format("'{}' must be a text, not {}", child.key, found_text(child)));
+        node.valid = right && node.valid;
+    }
+    return node.valid;
+}
+
+/// The paths themselves, and what stands under them, are for the scene to judge.
+bool Validator::paths(Node& node, const KeySpec& spec) {
+    for (Node& child : node.children) {
+        bool right = true;
+        if (child.kind == Node::Kind::kMap) right = section(child, spec.child);
+        if (child.kind == Node::Kind::kNull)
+            right = wrong(child, fmt::format("'{}' has no value", child.key));
+        if (child.kind == Node::Kind::kList && child.children.empty())
+            right = wrong(child, fmt::format("'{}' has no values", child.key));
+        node.valid = right && node.valid;
+    }
+    return node.valid;
+}
+
 bool Validator::named_maps(Node& node, const KeySpec& spec) {
     for (Node& child : node.children) {
         bool right = true;
-        if (!is_name(child.key)) {
-            report_.error_at_key(
-                child, fmt::format("{} is not a name: a name is a letter or '_' and then letters, "
-                                   "digits, '_' or '-', at most {} characters",
-                                   quoted_excerpt(child.key), kMaxNameLength));
-            right = child.valid = false;
+        if (!name_of_entry(child)) {
+            right = false;
         } else if (child.kind != Node::Kind::kMap) {
             right = wrong(
                 child, fmt::format("'{}' must be a mapping, not {}", child.key, found_text(child)));
@@ -208,6 +243,8 @@ bool Validator::value(Node& node, const KeySpec& spec) {
     if (node.kind == Node::Kind::kScalar) return scalar(node, spec);
     if (node.kind == Node::Kind::kMap && takes(form::kMap)) return section(node, spec.child);
     if (node.kind == Node::Kind::kMap && takes(form::kNamedMaps)) return named_maps(node, spec);
+    if (node.kind == Node::Kind::kMap && takes(form::kNamedTexts)) return named_texts(node);
+    if (node.kind == Node::Kind::kMap && takes(form::kPaths)) return paths(node, spec);
     if (node.kind == Node::Kind::kList && takes(form::kMaps)) return list_of_maps(node, spec);
     if (node.kind == Node::Kind::kList) return list(node, spec);
     return wrong_form(node, spec);
@@ -306,6 +343,9 @@ std::string expected_text(const KeySpec& spec) {
     if (takes(form::kTexts)) texts.push_back("a list of texts");
     if (takes(form::kMap) || takes(form::kNamedMaps)) texts.push_back("a mapping");
     if (takes(form::kMaps)) texts.push_back("a list of mappings");
+    if (takes(form::kValues)) texts.push_back("a list of values");
+    if (takes(form::kNamedTexts)) texts.push_back("a mapping from names to texts");
+    if (takes(form::kPaths)) texts.push_back("a mapping from paths to values");
     return fmt::format("{}", fmt::join(texts, " or "));
 }
 

@@ -8,7 +8,7 @@ import unittest
 from program import CAROM, SMALL_SCENE, ProgramTest, run
 
 COMMANDS = ["render", "still", "simulate", "check", "compare", "golden", "golden check", "golden update", "accuracy",
-            "figures", "fit", "schema", "info", "golden accept", "new", "completion", "help"]
+            "figures", "fit", "schema", "info", "golden accept", "new", "completion", "help", "sweep"]
 
 
 class Help(ProgramTest):

@@ -23,9 +23,10 @@ MAY_INCLUDE = {
     "report": {"core", "geometry", "scene", "motion", "sim", "render", "media"},
     "export": {"core", "geometry", "scene", "motion", "render", "media"},
     "page": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report", "export"},
+    "sweep": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
     "api": {"core", "geometry", "scene", "motion", "sim", "render", "media", "report"},
     "cli": {"core", "geometry", "scene", "motion", "sim", "render", "media", "golden", "report",
-            "export", "page"},
+            "export", "page", "sweep"},
 }
 
 # Folder -> its rooms -> the rooms that each may include, besides itself. What lies beside the rooms
@@ -56,7 +57,7 @@ ROOMS = {
         "texture": {"blend", "gl"},
         "marks": {"draw2d", "element", "runs", "view"},
         "plates": {"draw2d", "element", "runs", "view"},
-        "overlay": {"draw2d", "element", "marks", "plates"},
+        "overlay": {"draw2d", "element", "marks", "plates", "tile"},
         "background": {"blend", "gl", "tile", "view"},
         "balls": {"background", "blend", "gl", "runs", "tile", "view"},
         "layers": {"balls", "runs", "view"},
@@ -72,6 +73,8 @@ LIBRARY_HOME = {
     r"yaml-cpp/": {"scene"},
     r"ode/": {"sim"},
     r"boost/numeric/odeint/": {"sim"},
+    r"boost/math/": {"sweep"},
+    r"muParser": {"sweep"},
     r"(GL|EGL)/": {"render"},
     r"cairo|freetype/": {"render"},
     r"png\.h": {"media"},

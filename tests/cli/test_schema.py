@@ -168,7 +168,7 @@ class Schema(ProgramTest):
         jsonschema.Draft202012Validator.check_schema(self.schema)
 
     def test_accepts_the_scenes_that_come_with_carom(self):
-        scenes = sorted((SOURCE / "scenes").glob("**/*.yaml"))
+        scenes = sorted(p for p in (SOURCE / "scenes").glob("**/*.yaml") if p.parent.name != "sweeps")
         self.assertGreaterEqual(len(scenes), 2)
         for path in scenes:
             with self.subTest(scene=str(path)):

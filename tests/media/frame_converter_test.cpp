@@ -44,8 +44,8 @@ struct Yuv {
 TEST(FrameConverter, Yuv444IsTheFormulaRounded) {
     const Image image = noise_image(64, 48, 5);
     Planes eight(64, 48), ten(64, 48);
-    FrameConverter(PixelFormat::kYuv444).convert(image, eight.planes);
-    FrameConverter(PixelFormat::kYuv444Ten).convert(image, ten.planes);
+    FrameConverter(PixelFormat::kYuv444).convert(image, {}, eight.planes);
+    FrameConverter(PixelFormat::kYuv444Ten).convert(image, {}, ten.planes);
     double worst = 0;
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x) {
@@ -64,8 +64,8 @@ TEST(FrameConverter, Yuv444IsTheFormulaRounded) {
 TEST(FrameConverter, TenBitsOfHalvedChromaAreFourTimesEight) {
     const Image image = noise_image(64, 48, 6);
     Planes eight(64, 48), ten(64, 48);
-    FrameConverter(PixelFormat::kYuv420).convert(image, eight.planes);
-    FrameConverter(PixelFormat::kYuv420Ten).convert(image, ten.planes);
+    FrameConverter(PixelFormat::kYuv420).convert(image, {}, eight.planes);
+    FrameConverter(PixelFormat::kYuv420Ten).convert(image, {}, ten.planes);
     for (int y = 0; y < 24; ++y)
         for (int x = 0; x < 32; ++x)
             for (std::size_t c = 0; c < 3; ++c)
@@ -82,7 +82,7 @@ TEST(FrameConverter, AlphaIsStraightAndNothingHasTheColoursOfWhatIsNear) {
             p[3] = rim ? 128 : 255;
         }
     Planes planes(32, 32);
-    FrameConverter(PixelFormat::kYuva444Ten).convert(image, planes.planes);
+    FrameConverter(PixelFormat::kYuva444Ten).convert(image, {}, planes.planes);
     const Yuv red(200, 0, 0);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -91,7 +91,7 @@ TEST(FrameConverter, AlphaIsStraightAndNothingHasTheColoursOfWhatIsNear) {
             EXPECT_EQ(planes.word(3, x, y), std::lround(alpha * 1023 / 255.0));
         }
     const Image nothing(32, 32);
-    FrameConverter(PixelFormat::kYuva444Ten).convert(nothing, planes.planes);
+    FrameConverter(PixelFormat::kYuva444Ten).convert(nothing, {}, planes.planes);
     EXPECT_EQ(planes.word(0, 5, 5), 64);
     EXPECT_EQ(planes.word(3, 5, 5), 0);
 }

@@ -86,18 +86,19 @@ TEST(ThreadedSink, IsBoundedAndFillsUp) {
     std::atomic<int> pushed = 0;
     int most = 0, done = 0;
     std::set<const std::uint8_t*> buffers;
-    FrameWorkers workers(1, kCapacity, [&](int, std::int64_t, const Image& frame) {
-        // Slower than the writer: wait until it has filled the queue.
-        const int full = std::min(kFrames, done + 1 + kCapacity);
-        while (pushed < full) std::this_thread::yield();
-        for (int i = 0; i < 100; ++i) std::this_thread::yield();
-        most = std::max(most, pushed - done - 1);
-        ++done;
-        buffers.insert(frame.bgra.data());
-    });
+    FrameWorkers workers(1, kCapacity,
+                         [&](int, std::int64_t, const Image& frame, const ChangedParts&) {
+                             // Slower than the writer: wait until it has filled the queue.
+                             const int full = std::min(kFrames, done + 1 + kCapacity);
+                             while (pushed < full) std::this_thread::yield();
+                             for (int i = 0; i < 100; ++i) std::this_thread::yield();
+                             most = std::max(most, pushed - done - 1);
+                             ++done;
+                             buffers.insert(frame.bgra.data());
+                         });
     const Image frame(64, 64);
     for (int k = 0; k < kFrames; ++k) {
-        workers.push(k, frame);
+        workers.push(k, frame, {});
         ++pushed;
     }
     workers.drain();
@@ -155,12 +156,13 @@ TEST(ThreadedSink, CanBeGivenUpAtAnyTime) {
 TEST(FrameWorkers, SeveralThreadsDoEveryFrameOnce) {
     std::vector<std::atomic<int>> done(300);
     std::atomic<int> workers_seen = 0;
-    FrameWorkers workers(4, 3, [&](int worker, std::int64_t number, const Image&) {
-        workers_seen |= 1 << worker;
-        ++done[static_cast<std::size_t>(number)];
-        std::this_thread::yield();
-    });
-    for (int k = 0; k < 300; ++k) workers.push(k, Image(4, 4));
+    FrameWorkers workers(4, 3,
+                         [&](int worker, std::int64_t number, const Image&, const ChangedParts&) {
+                             workers_seen |= 1 << worker;
+                             ++done[static_cast<std::size_t>(number)];
+                             std::this_thread::yield();
+                         });
+    for (int k = 0; k < 300; ++k) workers.push(k, Image(4, 4), {});
     workers.drain();
     for (const auto& count : done) EXPECT_EQ(count, 1);
     EXPECT_GT(workers_seen, 0);
@@ -168,13 +170,14 @@ TEST(FrameWorkers, SeveralThreadsDoEveryFrameOnce) {
 
 TEST(FrameWorkers, CanGoOnAfterADrain) {
     int done = 0;
-    FrameWorkers workers(1, 2, [&](int, std::int64_t, const Image&) { ++done; });
+    FrameWorkers workers(1, 2,
+                         [&](int, std::int64_t, const Image&, const ChangedParts&) { ++done; });
     workers.drain();
     EXPECT_EQ(done, 0);
-    workers.push(0, Image(2, 2));
+    workers.push(0, Image(2, 2), {});
     workers.drain();
     EXPECT_EQ(done, 1);
-    workers.push(1, Image(2, 2));
+    workers.push(1, Image(2, 2), {});
     workers.drain();
     EXPECT_EQ(done, 2);
 }

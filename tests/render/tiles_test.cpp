@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/tile/screen_tiles.h"
+#include "render/tile/tile_mask.h"
 #include "render/tile/tile_owners.h"
 #include "render/view/view_space.h"
 #include "sample_views.h"
@@ -98,6 +99,35 @@ TEST(ScreenTiles, AnOctagonHoldsItsEllipse) {
         }
     }
     EXPECT_LT(nearest, 1e-4) << "it touches";
+}
+
+TEST(TileMask, ItsRectanglesAreItsTiles) {
+    std::mt19937 random(7);
+    for (int turn = 0; turn < 50; ++turn) {
+        TileMask mask(100, 70, 16);
+        for (int i = 0; i < turn; ++i) {
+            const int left = static_cast<int>(random() % 140) - 20;
+            const int top = static_cast<int>(random() % 100) - 20;
+            mask.add(PixelRect::at(left, top, static_cast<int>(random() % 30), 5));
+        }
+        std::vector<int> covered(100 * 70);
+        for (const PixelRect& rect : mask.rects())
+            for (int y = rect.top; y < rect.bottom; ++y)
+                for (int x = rect.left; x < rect.right; ++x)
+                    ++covered[static_cast<std::size_t>(y * 100 + x)];
+        for (int y = 0; y < 70; ++y)
+            for (int x = 0; x < 100; ++x)
+                ASSERT_EQ(mask.has_tile(x / 16, y / 16) ? 1 : 0,
+                          covered[static_cast<std::size_t>(y * 100 + x)]);
+    }
+    TileMask mask(100, 70, 16);
+    EXPECT_TRUE(mask.empty());
+    mask.add({20, 20, 21, 21});
+    EXPECT_TRUE(mask.touches({31, 31, 50, 50}));
+    EXPECT_FALSE(mask.touches({32, 16, 50, 50}));
+    EXPECT_FALSE(mask.touches({17, 17, 17, 30})) << "empty";
+    mask.add_all();
+    EXPECT_EQ((std::vector<PixelRect>{{0, 0, 100, 70}}), mask.rects());
 }
 
 TEST(TileOwners, WhoSharesATileSharesAGroup) {

@@ -87,7 +87,21 @@ TEST_F(FilmingTest, EveryOutputGetsEveryFrameOfItsInstant) {
     for (std::size_t i = 0; i < 5; ++i) {
         painter.paint(frame_time(scene_.film, numbers[i]), expected);
         EXPECT_EQ((Kept::Frame{numbers[i], expected, false}), kept_[0][i]);
-        EXPECT_EQ((Kept::Frame{numbers[i], expected, true}), kept_[1][i]);
+        EXPECT_EQ((Kept::Frame{numbers[i], expected, false}), kept_[1][i]);
+    }
+}
+
+TEST_F(FilmingTest, UnderACameraThatMovesTheLastOutputGetsThePictureItself) {
+    scene_.camera = Camera{};
+    scene_.camera->orbit_deg_per_s = 20;
+    EXPECT_EQ(3, film(FrameRanges::all(3), 2, {}));
+    Painter painter(scene_, motion_, {64, 36});
+    Image expected;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto number = static_cast<std::int64_t>(i);
+        painter.paint(frame_time(scene_.film, number), expected);
+        EXPECT_EQ((Kept::Frame{number, expected, false}), kept_[0][i]);
+        EXPECT_EQ((Kept::Frame{number, expected, true}), kept_[1][i]);
     }
 }
 

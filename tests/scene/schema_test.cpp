@@ -35,32 +35,40 @@ std::string value_errors(const KeyTable& table, const KeySpec& spec, const std::
 }
 
 TEST(KeyTable, ItsExamplesAndDefaultsAreRight) {
-    const KeyTable table;
     int rows = 0, defaults = 0;
-    for (int section = 0; section < kSectionCount; ++section)
-        for (const KeySpec* spec : table.keys(static_cast<Section>(section))) {
-            ++rows;
-            EXPECT_FALSE(spec->doc.empty()) << spec->key;
-            ASSERT_FALSE(spec->example.empty()) << spec->key;
-            EXPECT_EQ(value_errors(table, *spec, std::string(spec->example)), "") << spec->key;
-            if (spec->fallback.kind == Fallback::Kind::kNone) continue;
-            ++defaults;
-            EXPECT_EQ(value_errors(table, *spec, spec->fallback.text()), "") << spec->key;
-        }
-    EXPECT_GT(rows, 80);
-    EXPECT_GT(defaults, 25);
+    for (const FileKind kind : {FileKind::kScene, FileKind::kSweep}) {
+        const KeyTable table(kind);
+        for (int section = 0; section < kSectionCount; ++section)
+            for (const KeySpec* spec : table.keys(static_cast<Section>(section))) {
+                ++rows;
+                EXPECT_FALSE(spec->doc.empty()) << spec->key;
+                ASSERT_FALSE(spec->example.empty()) << spec->key;
+                EXPECT_EQ(value_errors(table, *spec, std::string(spec->example)), "") << spec->key;
+                if (spec->fallback.kind == Fallback::Kind::kNone) continue;
+                ++defaults;
+                EXPECT_EQ(value_errors(table, *spec, spec->fallback.text()), "") << spec->key;
+            }
+    }
+    EXPECT_GT(rows, 120);
+    EXPECT_GT(defaults, 35);
 }
 
 TEST(KeyTable, EveryRowIsReadInASceneOfAllKeys) {
     // Wrong values in every place that takes a number: the reader must look at every one of them.
-    const KeyTable table;
-    for (int section = 0; section < kSectionCount; ++section)
-        for (const KeySpec* spec : table.keys(static_cast<Section>(section)))
-            EXPECT_NE(value_errors(table, *spec, "{no_such_key: [{}]}"), "") << spec->key;
+    for (const FileKind kind : {FileKind::kScene, FileKind::kSweep}) {
+        const KeyTable table(kind);
+        for (int section = 0; section < kSectionCount; ++section)
+            for (const KeySpec* spec : table.keys(static_cast<Section>(section))) {
+                // Paths are for the scene to judge, and one may lead to a list.
+                const bool paths = (spec->forms & form::kPaths) != 0;
+                const char* wrong = paths ? "{path: {no_such_key: 1}}" : "{no_such_key: [{}]}";
+                EXPECT_NE(value_errors(table, *spec, wrong), "") << spec->key;
+            }
+    }
 }
 
 TEST(Schema, HasEveryKeyWithADescription) {
-    const Json schema = Json::parse(scene_json_schema());
+    const Json schema = Json::parse(json_schema(FileKind::kScene));
     EXPECT_EQ(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
     const KeyTable table;
     int keys = 0;
@@ -90,7 +98,7 @@ TEST(Reference, StandsInTheDocs) {
     ASSERT_NE(first, std::string::npos);
     ASSERT_NE(last, std::string::npos);
     const std::size_t start = first + begin.size();
-    EXPECT_EQ(docs.substr(start, last - start), scene_reference_markdown())
+    EXPECT_EQ(docs.substr(start, last - start), reference_markdown(FileKind::kScene))
         << "replace the text between the markers by this one";
 }
 

@@ -40,8 +40,12 @@ std::set<LookStyle> styles_in(const Scene& scene) {
     return styles;
 }
 
-GlProgram make_program(const Gl& gl, const std::set<LookStyle>& styles, const View& view,
-                       bool occluded, bool ghost, bool mirrored) {
+struct ProgramKind {
+    bool occluded, ghost, mirrored, casters;
+};
+
+GlProgram link_program(const Gl& gl, const std::set<LookStyle>& styles, const View& view,
+                       const ProgramKind& kind) {
     GlProgram::Sources sources;
     sources.name = "ball";
     std::vector<std::string> defines = view_defines(view);
@@ -50,9 +54,10 @@ GlProgram make_program(const Gl& gl, const std::set<LookStyle>& styles, const Vi
         sources.name += fmt::format(", style {}", static_cast<int>(style));
     }
     if (styles.size() > 1) defines.push_back("SEVERAL_STYLES");
-    if (occluded) defines.push_back("OCCLUDED");
-    if (ghost) defines.push_back("GHOST");
-    if (mirrored) defines.push_back("MIRRORED");
+    if (kind.occluded) defines.push_back("OCCLUDED");
+    if (kind.ghost) defines.push_back("GHOST");
+    if (kind.mirrored) defines.push_back("MIRRORED");
+    if (!kind.casters) defines.push_back("NO_CASTERS");
     sources.vertex = assemble_shader(defines, {"ball_vertex"});
     sources.fragment = assemble_shader(defines, {"ball_markings", "ball_fragment"});
     sources.attributes.assign(kAttributes.begin(), kAttributes.end());
@@ -82,33 +87,20 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
       scene_(&scene),
       view_(view),
       surface_shade_(scene, view, lights),
+      lights_(lights),
       to_light_(view_direction(view, lights.to_light)),
       light_tan_(lights.tan_radius),
+      images_(kind == Kind::kImages),
+      ghost_(ghost),
+      for_all_(around.programs == BallPrograms::kOneForAll),
       vertex_array_(gl),
       instance_buffer_(gl),
       caster_array_(gl) {
-    const std::set<LookStyle> styles = styles_in(scene);
-    const bool for_all = around.programs == BallPrograms::kOneForAll;
-    const bool images = kind == Kind::kImages, both = for_all && !ghost;
-    with_static_ = around.occluded && (both || !images);
-    with_mirrors_ = around.mirrored && (both || images);
-    for (const LookStyle style : styles) {
-        if (for_all && !programs_.empty()) break;
-        GlProgram program = make_program(gl, for_all ? styles : std::set<LookStyle>{style}, view,
-                                         with_static_, ghost.has_value(), with_mirrors_);
-        set_common_uniforms(program, view, lights);
-        if (ghost) {
-            program.set("u_ghost", ghost->color);
-            program.set("u_outline", ghost->outline_px);
-        }
-        program.set("u_size", Vec2(view.width_px(), view.height_px()));
-        program.set("u_g_buffer", 0);
-        program.set("u_front", 1);
-        program.set("u_mirror", 3);
-        program.set("u_casters", 2);
-        program.set("u_is_image", images ? 1 : 0);
-        programs_.emplace(style, std::move(program));
-    }
+    const bool both = for_all_ && !ghost;
+    with_static_ = around.occluded && (both || !images_);
+    with_mirrors_ = around.mirrored && (both || images_);
+    // Those of balls that are shaded by others are made when there is one.
+    for (const LookStyle style : styles_in(scene)) program_of(style, false);
     gl.BindVertexArray(vertex_array_.name());
     for (GLuint i = 0; i < kAttributes.size(); ++i) {
         gl.EnableVertexAttribArray(i);
@@ -117,25 +109,53 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
     gl.check("preparing the balls");
 }
 
+GlProgram& BallBillboards::make_program(LookStyle style, bool casters) {
+    GlProgram program =
+        link_program(*gl_, for_all_ ? styles_in(*scene_) : std::set<LookStyle>{style}, view_,
+                     {with_static_, ghost_.has_value(), with_mirrors_, casters});
+    set_common_uniforms(program, view_, lights_);
+    if (ghost_) {
+        program.set("u_ghost", ghost_->color);
+        program.set("u_outline", ghost_->outline_px);
+    }
+    program.set("u_size", Vec2(view_.width_px(), view_.height_px()));
+    program.set("u_g_buffer", 0);
+    program.set("u_front", 1);
+    program.set("u_mirror", 3);
+    program.set("u_casters", 2);
+    program.set("u_is_image", images_ ? 1 : 0);
+    if (mirror_) set_mirror_uniforms(program);
+    return programs_.emplace(std::pair(style, casters), std::move(program)).first->second;
+}
+
+GlProgram& BallBillboards::program_of(LookStyle style, bool casters) {
+    if (for_all_ && !programs_.empty()) return programs_.begin()->second;
+    if (for_all_ || ghost_) casters = true;  // which of ghosts are solid balls
+    const auto found = programs_.find({style, casters});
+    return found != programs_.end() ? found->second : make_program(style, casters);
+}
+
 void BallBillboards::set_view(const View& view, const Lights& lights) {
     view_ = view;
+    lights_ = lights;
     surface_shade_ = SurfaceShade(*scene_, view, lights);
     mirror_.reset();
     to_light_ = view_direction(view, lights.to_light);
-    for (auto& [style, program] : programs_) set_common_uniforms(program, view, lights);
+    for (auto& [kind, program] : programs_) set_common_uniforms(program, view, lights);
 }
 
 void BallBillboards::set_mirror(const Vec3& normal, double offset, const Lights& lights) {
-    const auto flipped = [&](const Vec3& v) { return Vec3(v - 2 * normal.dot(v) * normal); };
     mirror_ = MirrorPlane{normal, offset};
-    to_light_ = flipped(view_direction(view_, lights.to_light));
-    const Vec3 up = flipped(view_direction(view_, Vec3::UnitZ()));
-    for (auto& [style, program] : programs_) {
-        program.set("u_mirror_normal", normal);
-        program.set("u_mirror_offset", offset);
-        program.set("u_up", up);
-        program.set("u_light", to_light_);
-    }
+    lights_ = lights;
+    to_light_ = mirror_->flipped(view_direction(view_, lights.to_light));
+    for (auto& [kind, program] : programs_) set_mirror_uniforms(program);
+}
+
+void BallBillboards::set_mirror_uniforms(GlProgram& program) const {
+    program.set("u_mirror_normal", mirror_->normal);
+    program.set("u_mirror_offset", mirror_->offset);
+    program.set("u_up", mirror_->flipped(view_direction(view_, Vec3::UnitZ())));
+    program.set("u_light", to_light_);
 }
 
 BallShade BallBillboards::shade_on(const BallInView& ball) const {
@@ -152,31 +172,23 @@ LookStyle BallBillboards::style_of(const BallInView& ball) const {
     return ball_style(scene_->looks[static_cast<std::size_t>(ball.look)].style);
 }
 
-GlProgram& BallBillboards::program_of(LookStyle style) {
-    return programs_.size() == 1 ? programs_.begin()->second : programs_.at(style);
-}
-
 BallBillboards::Casters BallBillboards::find_casters(const std::vector<BallInView>& balls) const {
     Casters casters;
     const CasterCells cells(balls, to_light_);
     for (const BallInView& ball : balls) {
         const int first = static_cast<int>(casters.vec4s.size() / 4);
         int count = 0;
+        if (!ball.drawn) {
+            casters.first.push_back(first);
+            casters.count.push_back(count);
+            continue;
+        }
         for (const int number : cells.near(ball)) {
             const BallInView& other = balls[static_cast<std::size_t>(number)];
             if (&other == &ball || other.instant != ball.instant) continue;
-            // Between the ball and the lamp, within the penumbra's reach, or close enough to
-            // darken.
-            const Vec3 rel = other.center - ball.center;
-            const double along = rel.dot(to_light_);
-            const double reach = ball.radius + other.radius;
-            if (along < -reach) continue;
-            const double across2 = rel.squaredNorm() - along * along;
-            const double wide = reach + std::max(0.0, along) * light_tan_;
-            if (across2 > wide * wide) continue;
-            // A lamp that looks much larger than the caster hides the shadow.
-            if (along * light_tan_ > kLargestLamp * other.radius) continue;
-            put(casters.vec4s, rel / ball.radius, other.radius / ball.radius);
+            if (!may_shade(other, ball, to_light_, light_tan_)) continue;
+            put(casters.vec4s, (other.center - ball.center) / ball.radius,
+                other.radius / ball.radius);
             if (++count == kMostCasters) break;
         }
         casters.first.push_back(first);
@@ -260,14 +272,14 @@ void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const 
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (!may_be_seen(balls[i], view_)) continue;
         append_instance(balls[i], shade_on(balls[i]), casters.first[i], casters.count[i]);
-        programs.push_back(&program_of(style_of(balls[i])));
+        programs.push_back(&program_of(style_of(balls[i]), casters.count[i] > 0));
     }
     if (!programs.empty()) draw_runs(programs, casters.vec4s, background);
 }
 
 void BallBillboards::compile(const BackgroundPicture& background) {
     std::vector<GlProgram*> programs;
-    for (auto& [style, program] : programs_) programs.push_back(&program);
+    for (auto& [kind, program] : programs_) programs.push_back(&program);
     instances_.assign(programs.size() * kInstanceFloats, 0.0F);
     draw_runs(programs, {}, background);
 }

@@ -3,9 +3,11 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "render/background/background_picture.h"
+#include "render/balls/ball_programs.h"
 #include "render/balls/balls_in_view.h"
 #include "render/balls/surface_shade.h"
 #include "render/gl/gl_program.h"
@@ -18,10 +20,6 @@ struct GhostLook {
     Vec3 color = Vec3::Zero();  ///< of the outline, linear
     double outline_px = 2;
 };
-
-/// Programs that draw fast, one for each style of ball that the scene has; or one for all of its
-/// styles, which compiles sooner.
-enum class BallPrograms { kEachStyle, kOneForAll };
 
 /// What the balls of a picture have to do with what is around them.
 struct BallSurroundings {
@@ -68,6 +66,8 @@ class BallBillboards {
                         const std::vector<BallInView>& solid) const;
     void draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
                         const BackgroundPicture& background);
+    GlProgram& make_program(LookStyle style, bool casters);
+    void set_mirror_uniforms(GlProgram& program) const;
     /// `programs`: of each instance, in the order in which they are drawn.
     void draw_runs(const std::vector<GlProgram*>& programs, const std::vector<float>& casters,
                    const BackgroundPicture& background);
@@ -75,21 +75,27 @@ class BallBillboards {
                          int casters);
     BallShade shade_on(const BallInView& ball) const;
     LookStyle style_of(const BallInView& ball) const;
-    GlProgram& program_of(LookStyle style);
+    GlProgram& program_of(LookStyle style, bool casters);
 
     const Gl* gl_;
     const Scene* scene_;
     View view_;
     SurfaceShade surface_shade_;
+    Lights lights_;
     Vec3 to_light_;  ///< view space
     struct MirrorPlane {
         Vec3 normal;
         double offset;
+        Vec3 flipped(const Vec3& v) const { return v - 2 * normal.dot(v) * normal; }
     };
     std::optional<MirrorPlane> mirror_;
     double light_tan_;
-    bool with_static_, with_mirrors_;          ///< what its programs look at
-    std::map<LookStyle, GlProgram> programs_;  ///< by style; one alone draws all of them
+    bool with_static_, with_mirrors_;  ///< what its programs look at
+    bool images_;
+    std::optional<GhostLook> ghost_;
+    bool for_all_;  ///< one program draws all
+    /// By style, and whether other balls may take light from the ball.
+    std::map<std::pair<LookStyle, bool>, GlProgram> programs_;
     GlVertexArray vertex_array_;
     GlBuffer instance_buffer_;
     GlVec4Array caster_array_;

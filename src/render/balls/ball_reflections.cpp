@@ -1,8 +1,5 @@
 #include "render/balls/ball_reflections.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace carom {
 
 BallReflections::BallReflections(const Gl& gl, const Scene& scene, const View& view,
@@ -15,8 +12,8 @@ BallReflections::BallReflections(const Gl& gl, const Scene& scene, const View& v
       scale_(scale),
       mirrors_(find_mirrors(scene, view)),
       balls_(gl, scene, view, lights, around, std::nullopt, BallBillboards::Kind::kImages),
-      layer_(make_texture(gl, GL_SRGB8_ALPHA8, view.width_px(), view.height_px(), GL_RGBA,
-                          GL_UNSIGNED_BYTE)),
+      // Not in codes of sRGB: drivers round these by what the maker of the processor thinks right.
+      layer_(make_texture(gl, GL_RGBA32F, view.width_px(), view.height_px(), GL_RGBA, GL_FLOAT)),
       layer_framebuffer_(make_framebuffer(gl, "mirror images", {&layer_})) {}
 
 void BallReflections::set_view(const View& view, const Lights& lights, const PictureScale& scale) {
@@ -37,22 +34,9 @@ std::vector<BallInView> BallReflections::images(const std::vector<BallInView>& b
 
 std::vector<PixelRect> BallReflections::parts_of(const std::vector<BallInView>& images) const {
     constexpr std::size_t kMostParts = 32;  // where many are, they lie together
-    const PixelRect whole{0, 0, view_.width_px(), view_.height_px()};
     std::vector<PixelRect> parts;
-    for (const BallInView& image : images) {
-        if (!may_be_seen(image, view_)) continue;
-        const Outline outline = project_sphere(image.center, image.radius, view_);
-        if (!outline.is_ellipse) return {whole};
-        const double x = std::hypot(outline.major.x(), outline.minor.x()) + 1;
-        const double y = std::hypot(outline.major.y(), outline.minor.y()) + 1;
-        const auto px = [](double at, int size) {
-            return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
-        };
-        parts.push_back({px(outline.center.x() - x, whole.right),
-                         px(outline.center.y() - y, whole.bottom),
-                         px(outline.center.x() + x + 1, whole.right),
-                         px(outline.center.y() + y + 1, whole.bottom)});
-    }
+    for (const BallInView& image : images)
+        if (may_be_seen(image, view_)) parts.push_back(bounds_in_picture(image, view_));
     return apart(parts, kMostParts);
 }
 
@@ -63,9 +47,8 @@ void BallReflections::draw(const std::vector<BallInView>& balls,
         const std::vector<BallInView> images = mirror_images(balls, mirror, view_);
         const std::vector<PixelRect> parts = parts_of(images);
         if (parts.empty()) continue;
+        for (const PixelRect& part : parts) clear_layer(part);
         gl_->BindFramebuffer(GL_FRAMEBUFFER, layer_framebuffer_.name());
-        gl_->ClearColor(0, 0, 0, 0);
-        gl_->Clear(GL_COLOR_BUFFER_BIT);
         balls_.set_mirror(mirror.normal, mirror.offset, lights_);
         balls_.draw(images, background);
         for (const PixelRect& part : parts) blend(mirror, part, background, frame, color);
@@ -79,6 +62,15 @@ void BallReflections::compile(const BackgroundPicture& background, const GlFrame
     balls_.set_mirror(mirrors_.front().normal, mirrors_.front().offset, lights_);
     balls_.compile(background);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, frame.name());
+}
+
+void BallReflections::clear_layer(const PixelRect& part) {
+    read_.images.assign(
+        4 * static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height()), 0.0F);
+    gl_->ActiveTexture(GL_TEXTURE0);
+    gl_->BindTexture(GL_TEXTURE_2D, layer_.name());
+    gl_->TexSubImage2D(GL_TEXTURE_2D, 0, part.left, part.top, part.width(), part.height(), GL_RGBA,
+                       GL_FLOAT, read_.images.data());
 }
 
 void BallReflections::blend(const Mirror& mirror, const PixelRect& part,
@@ -97,7 +89,7 @@ void BallReflections::blend(const Mirror& mirror, const PixelRect& part,
         gl_->ReadPixels(part.left, part.top, read.width_px, read.height_px, format, type,
                         to.data());
     };
-    fetch(layer_framebuffer_, GL_BGRA, GL_UNSIGNED_BYTE, read.images);
+    fetch(layer_framebuffer_, GL_RGBA, GL_FLOAT, read.images);
     fetch(frame, GL_BGRA, GL_UNSIGNED_BYTE, read.picture);
     fetch(background.g_buffer_framebuffer(), GL_RGBA_INTEGER, GL_UNSIGNED_INT, read.g_buffer);
     fetch(background.mirror_framebuffer(), GL_RGBA, GL_FLOAT, read.mirrored);

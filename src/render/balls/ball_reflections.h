@@ -39,6 +39,7 @@ class BallReflections {
   private:
     /// Where the images are, in parts that do not overlap.
     std::vector<PixelRect> parts_of(const std::vector<BallInView>& images) const;
+    void clear_layer(const PixelRect& part);
     void blend(const Mirror& mirror, const PixelRect& part, const BackgroundPicture& background,
                const GlFramebuffer& frame, const GlTexture& color);
 

@@ -89,6 +89,20 @@ void sort_for_drawing(std::vector<BallInView>& balls, const View& view) {
                      [&](const BallInView& a, const BallInView& b) { return power(a) > power(b); });
 }
 
+PixelRect bounds_in_picture(const BallInView& ball, const View& view) {
+    const PixelRect whole{0, 0, view.width_px(), view.height_px()};
+    const Outline outline = project_sphere(ball.center, ball.radius, view);
+    if (!outline.is_ellipse) return whole;
+    const double x = std::hypot(outline.major.x(), outline.minor.x()) + 1;
+    const double y = std::hypot(outline.major.y(), outline.minor.y()) + 1;
+    const auto px = [](double at, int size) {
+        return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
+    };
+    return {px(outline.center.x() - x, whole.right), px(outline.center.y() - y, whole.bottom),
+            px(outline.center.x() + x + 1, whole.right),
+            px(outline.center.y() + y + 1, whole.bottom)};
+}
+
 bool may_be_seen(const BallInView& ball, const View& view) {
     if (!ball.drawn) return false;
     const bool around_eye = !view.orthographic() && ball.center.norm() <= ball.radius;

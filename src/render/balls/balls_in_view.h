@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/pixel_rect.h"
 #include "motion/motion.h"
 #include "render/view/camera.h"
 #include "scene/scene.h"
@@ -43,6 +44,9 @@ std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scen
 
 /// Puts them in that order.
 void sort_for_drawing(std::vector<BallInView>& balls, const View& view);
+
+/// Around every pixel that shows something of it, with its soft edge, within the picture.
+PixelRect bounds_in_picture(const BallInView& ball, const View& view);
 
 /// False where no pixel shows it: not drawn, behind the eye, beside the picture, or around the eye.
 bool may_be_seen(const BallInView& ball, const View& view);

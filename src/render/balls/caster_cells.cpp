@@ -15,6 +15,19 @@ int cells_along(double extent_m, double cell_m, std::size_t balls) {
 
 }  // namespace
 
+bool may_shade(const BallInView& other, const BallInView& ball, const Vec3& to_light,
+               double light_tan) {
+    const Vec3 rel = other.center - ball.center;
+    const double along = rel.dot(to_light);
+    const double reach = ball.radius + other.radius;
+    if (along < -reach) return false;
+    const double across2 = rel.squaredNorm() - along * along;
+    const double wide = reach + std::max(0.0, along) * light_tan;
+    if (across2 > wide * wide) return false;
+    // A lamp that looks much larger than the caster hides the shadow.
+    return along * light_tan <= kLargestLamp * other.radius;
+}
+
 CasterCells::CasterCells(const std::vector<BallInView>& balls, const Vec3& to_light)
     : u_(to_light.unitOrthogonal()), v_(to_light.cross(u_)), cells_(1) {
     if (balls.empty()) return;

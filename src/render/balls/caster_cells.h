@@ -10,6 +10,11 @@ namespace carom {
 /// A shadow is looked for up to where the lamp looks so many times larger than the ball.
 inline constexpr double kLargestLamp = 8;
 
+/// Whether `other` may take light from the ball: between it and the lamp, within the penumbra's
+/// reach, or close enough to darken. `light_tan`: of the lamp's angular radius.
+bool may_shade(const BallInView& other, const BallInView& ball, const Vec3& to_light,
+               double light_tan);
+
 /// Balls sorted into cells by where they stand across the light's direction, so that each ball has
 /// to look at its neighbours there instead of at all balls.
 class CasterCells {

@@ -62,8 +62,8 @@ void blend_images(const Mirror& mirror, const View& view, double fade_m, MirrorP
     std::size_t at = 0;
     for (int y = 0; y < part.height_px; ++y) {
         for (int x = 0; x < part.width_px; ++x, at += 4) {
-            const std::uint8_t* image = &part.images[at];
-            if (image[3] == 0) continue;
+            const float* image = &part.images[at];
+            if (!(image[3] > 0)) continue;
             const Vec3 place = rays.place(part.left_px + x, part.top_px + y);
             const Vec3 start = rays.start(place), d = rays.direction(place);
             const double facing = normal.dot(d);
@@ -82,14 +82,14 @@ void blend_images(const Mirror& mirror, const View& view, double fade_m, MirrorP
                 const double away = p.norm() / fade_m;
                 share *= std::exp(-away * away);
             }
-            const double hides = image[3] / 255.0;
+            const double hides = static_cast<double>(image[3]);
             std::uint8_t* to = &part.picture[at];
             for (int c = 0; c < 3; ++c) {
-                // The mirrored light is in the order R, G, B.
-                const double hidden =
-                    hides *
-                    static_cast<double>(part.mirrored[at + 2 - static_cast<std::size_t>(c)]);
-                to[c] = encoded(std::max(0.0, linear[to[c]] - hidden) + share * linear[image[c]]);
+                // Light is in the order R, G, B.
+                const std::size_t channel = 2 - static_cast<std::size_t>(c);
+                const double hidden = hides * static_cast<double>(part.mirrored[at + channel]);
+                to[c] = encoded(std::max(0.0, linear[to[c]] - hidden) +
+                                share * static_cast<double>(image[channel]));
             }
         }
     }

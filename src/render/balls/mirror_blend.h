@@ -15,7 +15,7 @@ struct MirrorPart {
     int left_px = 0, top_px = 0, width_px = 0, height_px = 0;
     std::vector<std::uint32_t> g_buffer;  ///< BackgroundPicture::g_buffer()
     std::vector<float> mirrored;          ///< BackgroundPicture::mirror()
-    std::vector<std::uint8_t> images;     ///< BGRA, the balls behind the mirror alone
+    std::vector<float> images;            ///< RGBA, the balls behind the mirror alone: linear light
     std::vector<std::uint8_t> picture;    ///< BGRA
 };
 

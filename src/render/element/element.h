@@ -32,6 +32,14 @@ enum class PicturePart {
     kSecondHalf,
 };
 
+/// What an element that draws on the finished picture draws there at an instant: where equal to
+/// that of another instant, the same pixels.
+struct Appearance {
+    std::vector<PixelRect> parts;  ///< all that it draws on; may reach beyond the picture
+    std::vector<double> state;     ///< all that decides what it draws, besides the view
+    bool operator==(const Appearance&) const = default;
+};
+
 /// One thing that is drawn over a picture, for as long as a film lasts. Pictures are premultiplied
 /// and in the size of the view; times are seconds of the motion, in any order.
 class Element {
@@ -47,6 +55,12 @@ class Element {
 
     /// kBackground, onto a picture that is transparent at first, and kOver, onto the finished one.
     virtual void draw(double /*t*/, Image& /*picture*/) {}
+
+    /// kOver: what draw() draws at t. By default, something else at each instant, anywhere.
+    virtual Appearance appearance(double t) {
+        constexpr int kAnywhere = 1 << 28;
+        return {{{0, 0, kAnywhere, kAnywhere}}, {t}};
+    }
 
     /// kBelowBalls: brings its picture, on transparent, to the instant t. Returns what changed
     /// since the last call, which may reach beyond the picture.

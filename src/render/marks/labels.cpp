@@ -279,6 +279,7 @@ void LabelsElement::set_view(const View& view, const std::vector<PixelRect>& /*a
     view_ = view;
     view_moves_ = true;
     rises_.forget();
+    drawn_.reset();
 }
 
 void LabelsElement::draw_lines(const std::vector<std::optional<LabelPlace>>& places,
@@ -306,9 +307,43 @@ void LabelsElement::draw_lines(const std::vector<std::optional<LabelPlace>>& pla
     if (canvas) canvas->finish();
 }
 
+const LabelsElement::Drawn& LabelsElement::drawn_at(double t) {
+    if (!drawn_ || drawn_->t != t) drawn_ = Drawn{t, place(t, taken_), wishes(t)};
+    return *drawn_;
+}
+
+Appearance LabelsElement::appearance(double t) {
+    const Drawn& drawn = drawn_at(t);
+    Appearance found;
+    for (std::size_t i = 0; i < drawn.places.size(); ++i) {
+        const std::optional<LabelPlace>& place = drawn.places[i];
+        if (!place) continue;
+        const PixelRect& rect = place->rect;
+        for (const int px : {static_cast<int>(i), rect.left, rect.top, int{place->away}})
+            found.state.push_back(px);
+        found.state.push_back(place->opacity);
+        found.parts.push_back(rect);
+        if (!place->away) continue;
+        // The line to its ball, and half its width.
+        const double x = drawn.balls[i].center_x, y = drawn.balls[i].bottom_y + gap_px_;
+        found.state.insert(found.state.end(), {x, y});
+        constexpr int kLine = 4;
+        const auto px = [](double at, int size) {
+            return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
+        };
+        const int left = px(x, view_.width_px()), top = px(y, view_.height_px());
+        const PixelRect line =
+            PixelRect{left, top, left + 1, top + 1}.joined(rect.empty() ? PixelRect{} : rect);
+        found.parts.push_back(
+            {line.left - kLine, line.top - kLine, line.right + kLine, line.bottom + kLine});
+    }
+    return found;
+}
+
 void LabelsElement::draw(double t, Image& picture) {
-    const auto places = place(t, taken_);
-    draw_lines(places, wishes(t), picture);  // first, so that names stay legible above them
+    const Drawn& drawn = drawn_at(t);
+    const auto& places = drawn.places;
+    draw_lines(places, drawn.balls, picture);  // first, so that names stay legible above them
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!places[i]) continue;
         const PixelRect& rect = places[i]->rect;

@@ -61,6 +61,7 @@ class LabelsElement : public Element {
     std::vector<std::optional<LabelPlace>> place(double t,
                                                  const std::vector<PixelRect>& obstacles) const;
     void draw(double t, Image& picture) override;
+    Appearance appearance(double t) override;
 
   private:
     /// With halo; drawn when it is first shown, for of thousands few have room.
@@ -87,6 +88,14 @@ class LabelsElement : public Element {
     std::vector<int> widths_px_;  ///< per ball
     mutable std::vector<Image> pictures_;
     mutable LabelRises rises_;
+    /// What is drawn at an instant: the last that was asked for.
+    struct Drawn {
+        double t = 0;
+        std::vector<std::optional<LabelPlace>> places;
+        std::vector<LabelWish> balls;
+    };
+    const Drawn& drawn_at(double t);
+    std::optional<Drawn> drawn_;
 };
 
 ElementKind labels_kind();

@@ -81,8 +81,32 @@ void VelocityElement::set_view(const View& view, const std::vector<PixelRect>& /
     view_ = view;
 }
 
+double VelocityElement::unit_px() const { return std::max(overlay_px(1, view_.height_px()), 0.6); }
+
+Appearance VelocityElement::appearance(double t) {
+    constexpr double kWide = 8;  // units on either side: half a head, its outline and its joins
+    const double around = kWide * unit_px() + 1;
+    Appearance found;
+    for (std::size_t i = 0; i < inks_.size(); ++i) {
+        const auto shown = arrow(i, t);
+        if (!shown) continue;
+        for (const double px : {shown->from.x(), shown->from.y(), shown->to.x(), shown->to.y()})
+            found.state.push_back(px);
+        found.state.push_back(static_cast<double>(i));
+        const Vec2 low = shown->from.cwiseMin(shown->to), high = shown->from.cwiseMax(shown->to);
+        const auto px = [](double at, int size) {
+            return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
+        };
+        found.parts.push_back({px(low.x() - around, view_.width_px()),
+                               px(low.y() - around, view_.height_px()),
+                               px(high.x() + around + 1, view_.width_px()),
+                               px(high.y() + around + 1, view_.height_px())});
+    }
+    return found;
+}
+
 void VelocityElement::draw(double t, Image& picture) {
-    const double unit = std::max(overlay_px(1, view_.height_px()), 0.6);
+    const double unit = unit_px();
     const double far = 4.0 * (view_.width_px() + view_.height_px());
     Canvas canvas(picture);
     cairo_t* c = canvas.context();

@@ -33,8 +33,11 @@ class VelocityElement : public Element {
     /// None behind the camera.
     std::optional<VelocityArrow> arrow(std::size_t ball, double t) const;
     void draw(double t, Image& picture) override;
+    Appearance appearance(double t) override;
 
   private:
+    double unit_px() const;
+
     const Scene& scene_;
     const Motion& motion_;
     View view_;

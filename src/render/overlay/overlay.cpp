@@ -108,6 +108,40 @@ const Image& OverlayPainter::moving_layer() const {
     return below_balls_.size() > 1 ? composed_ : below_balls_.front()->picture();
 }
 
+void OverlayPainter::find_changes_over(double t, TileMask& tiles) {
+    const auto add = [&](const Appearance& appearance) {
+        for (const PixelRect& part : appearance.parts) tiles.add(part);
+    };
+    const bool known = !shown_.empty();
+    shown_.resize(over_.size());
+    for (std::size_t i = 0; i < over_.size(); ++i) {
+        Appearance now = over_[i]->appearance(t);
+        shown_[i].redrawn = !known || now != shown_[i].appearance;
+        if (!shown_[i].redrawn) continue;
+        add(shown_[i].appearance);
+        add(now);
+        shown_[i].appearance = std::move(now);
+    }
+    // What lies over something that changes is drawn again as a whole, once.
+    for (bool again = true; again;) {
+        again = false;
+        for (Shown& shown : shown_) {
+            const auto& parts = shown.appearance.parts;
+            if (shown.redrawn || std::none_of(parts.begin(), parts.end(), [&](const auto& part) {
+                    return tiles.touches(part);
+                }))
+                continue;
+            shown.redrawn = again = true;
+            add(shown.appearance);
+        }
+    }
+}
+
+void OverlayPainter::redraw_over(double t, Image& picture) const {
+    for (std::size_t i = 0; i < over_.size(); ++i)
+        if (shown_[i].redrawn) over_[i]->draw(t, picture);
+}
+
 void OverlayPainter::draw_over(double t, Image& picture) const {
     for (const auto& element : over_) element->draw(t, picture);
 }

@@ -8,6 +8,7 @@
 #include "core/image.h"
 #include "core/pixel_rect.h"
 #include "render/element/element.h"
+#include "render/tile/tile_mask.h"
 
 namespace carom {
 
@@ -49,6 +50,14 @@ class OverlayPainter {
     /// Clock, text, plot, arrows, verdict and labels on the finished picture.
     void draw_over(double t, Image& picture) const;
 
+    /// The same where the picture of the last call's instant is there: adds to the tiles that
+    /// change below what changes here, and all of each element that has a part in either. In these
+    /// tiles the picture has to be brought to what is below, for redraw_over().
+    void find_changes_over(double t, TileMask& tiles);
+    void redraw_over(double t, Image& picture) const;
+    /// Whatever is shown next is new.
+    void forget_over() { shown_.clear(); }
+
   private:
     /// Whether what keeps a place has one; then it is taken, else the element is left out.
     bool takes_place(const ElementKind& kind, const PixelRect& rect);
@@ -59,7 +68,12 @@ class OverlayPainter {
     std::vector<PixelRect> taken_;
     std::vector<std::string> left_out_;
     std::vector<std::unique_ptr<Element>> background_, below_balls_, over_;
-    Image composed_;  ///< of those below the balls, where there are several
+    struct Shown {
+        Appearance appearance;
+        bool redrawn = false;
+    };
+    std::vector<Shown> shown_;  ///< of each element over the picture, at the last instant
+    Image composed_;            ///< of those below the balls, where there are several
     const Image nothing_;
 };
 

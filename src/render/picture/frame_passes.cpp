@@ -89,7 +89,8 @@ void FramePasses::prepare(const BackgroundPicture& background) {
     const View& view = setup_.view;
     const Lights& lights = setup_.lights;
     const bool on_surfaces = setup_.moving ? !scene.surfaces.empty() : setup_.surfaces.count() > 0;
-    if (on_surfaces && !scene.balls.empty()) shadows_.emplace(gl_, scene, view, lights);
+    if (on_surfaces && !scene.balls.empty())
+        shadows_.emplace(gl_, scene, view, lights, around_.programs);
     if (around_.mirrored) reflections_.emplace(gl_, scene, view, lights, setup_.scale, around_);
     if (!setup_.moving) {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_.name());
@@ -126,6 +127,12 @@ void FramePasses::see_in_tiles(const View& view, const Lights& lights,
 
 void FramePasses::draw_below(const DrawnBalls& bodies, const BackgroundPicture& background) {
     if (shadows_) shadows_->draw(bodies.balls, background);
+    if (reflections_) reflections_->draw(bodies.balls, background, frame_, color_);
+}
+
+void FramePasses::draw_below_within(const TileMask& mask, const DrawnBalls& bodies,
+                                    const BackgroundPicture& background) {
+    if (shadows_) shadows_->draw_within(mask, background);
     if (reflections_) reflections_->draw(bodies.balls, background, frame_, color_);
 }
 

@@ -52,6 +52,19 @@ class FramePasses {
     void draw_below(const DrawnBalls& bodies, const BackgroundPicture& background);
     void draw_balls(const DrawnBalls& bodies, const BackgroundPicture& background);
 
+    /// The same within the tiles of a mask, which hold all of the bodies that are marked as drawn;
+    /// after cast().
+    void draw_below_within(const TileMask& mask, const DrawnBalls& bodies,
+                           const BackgroundPicture& background);
+    /// Finds the shadows of all balls; null where there are none.
+    const ShadowTiles* cast(const DrawnBalls& bodies) {
+        return shadows_ ? &shadows_->cast(bodies.balls) : nullptr;
+    }
+    /// Mirror images that may be seen.
+    std::vector<BallInView> images(const DrawnBalls& bodies) const {
+        return reflections_ ? reflections_->images(bodies.balls) : std::vector<BallInView>{};
+    }
+
     /// Adds the tiles of the balls, of their images and of the shadows that they cast. Bodies
     /// are the scene's balls, then those of the second run.
     void mark(const DrawnBalls& bodies, const View& view, TileOwners& owners);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/changed_parts.h"
 #include "core/image.h"
 
 namespace carom {
@@ -21,6 +22,11 @@ class Picture {
 
     /// See Painter::paint_strobe(); one instant is blurred as the film's shutter says.
     virtual void paint(const std::vector<double>& instants, Image& out) = 0;
+
+    /// See Painter.
+    virtual ChangedParts paint_next(double t, Image& picture) = 0;
+
+    virtual bool draws_each_anew() const = 0;
 
     virtual std::string renderer() = 0;  ///< name and version of the driver
     virtual std::map<std::string, DrawnEffect> effects() const = 0;

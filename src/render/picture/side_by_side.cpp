@@ -29,6 +29,8 @@ Scene second_half_scene(const Scene& scene, const SecondRun& run) {
     return half;
 }
 
+constexpr int kTilePx = 16;  ///< in which changes are found
+
 std::uint8_t byte_of(double part) { return static_cast<std::uint8_t>(std::lround(255 * part)); }
 
 }  // namespace
@@ -75,22 +77,65 @@ SideBySide::SideBySide(const Scene& scene, const Motion& motion, const PainterOp
     second_ = make_single_picture(second_scene_, run_.motion, options, &second_half_);
 }
 
+void SideBySide::compose(const std::vector<PixelRect>& parts, Image& picture) const {
+    const std::uint8_t divider[4] = {byte_of(divider_.b), byte_of(divider_.g), byte_of(divider_.r),
+                                     255};
+    const int second_px = half_px_ + divider_px_;
+    const auto copy = [](const Image& half, int y, int left, int right, std::uint8_t* to) {
+        if (left < right)
+            std::copy_n(half.row(y) + std::ptrdiff_t{4} * left, std::ptrdiff_t{4} * (right - left),
+                        to);
+    };
+    for (const PixelRect& part : parts) {
+        for (int y = part.top; y < part.bottom; ++y) {
+            std::uint8_t* row = picture.row(y);
+            copy(first_picture_, y, part.left, std::min(part.right, half_px_),
+                 row + std::ptrdiff_t{4} * part.left);
+            for (int x = std::max(part.left, half_px_); x < std::min(part.right, second_px); ++x)
+                std::copy_n(divider, 4, row + std::ptrdiff_t{4} * x);
+            const int left = std::max(part.left, second_px);
+            copy(second_picture_, y, left - second_px, part.right - second_px,
+                 row + std::ptrdiff_t{4} * left);
+        }
+    }
+}
+
 void SideBySide::paint(const std::vector<double>& instants, Image& out) {
     first_->paint(instants, first_picture_);
     second_->paint(instants, second_picture_);
     const double begin = thread_cpu_s();
+    kept_pixels_ = nullptr;
     if (out.width_px != width_px_ || out.height_px != height_px_)
         out = Image(width_px_, height_px_);
-    const std::uint8_t divider[4] = {byte_of(divider_.b), byte_of(divider_.g), byte_of(divider_.r),
-                                     255};
-    const auto half_bytes = static_cast<std::ptrdiff_t>(first_picture_.stride_bytes());
-    for (int y = 0; y < height_px_; ++y) {
-        std::uint8_t* to = std::copy_n(first_picture_.row(y), half_bytes, out.row(y));
-        for (int x = 0; x < divider_px_; ++x) to = std::copy_n(divider, 4, to);
-        std::copy_n(second_picture_.row(y), half_bytes, to);
-    }
+    compose({{0, 0, width_px_, height_px_}}, out);
     overlay_.draw_over(instants.back(), out);
     over_cpu_s_ += thread_cpu_s() - begin;
+}
+
+ChangedParts SideBySide::paint_next(double t, Image& picture) {
+    const ChangedParts first = first_->paint_next(t, first_picture_);
+    const ChangedParts second = second_->paint_next(t, second_picture_);
+    const double begin = thread_cpu_s();
+    TileMask tiles(width_px_, height_px_, kTilePx);
+    const bool kept = picture.width_px == width_px_ && picture.height_px == height_px_ &&
+                      picture.bgra.data() == kept_pixels_;
+    if (!kept) {
+        if (picture.width_px != width_px_ || picture.height_px != height_px_)
+            picture = Image(width_px_, height_px_);
+        kept_pixels_ = picture.bgra.data();
+        overlay_.forget_over();
+    }
+    if (!kept || first.all || second.all) tiles.add_all();
+    for (const PixelRect& part : first.parts) tiles.add(part);
+    const int shift = half_px_ + divider_px_;
+    for (const PixelRect& part : second.parts)
+        tiles.add({part.left + shift, part.top, part.right + shift, part.bottom});
+    overlay_.find_changes_over(t, tiles);
+    const std::vector<PixelRect> parts = tiles.rects();
+    compose(parts, picture);
+    overlay_.redraw_over(t, picture);
+    over_cpu_s_ += thread_cpu_s() - begin;
+    return kept ? ChangedParts::only(parts) : ChangedParts{};
 }
 
 std::map<std::string, DrawnEffect> SideBySide::effects() const {

@@ -1,6 +1,7 @@
 // Two runs beside each other: two pictures by the same camera, and what stands over both.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -21,6 +22,8 @@ class SideBySide : public Picture {
     SideBySide(const Scene& scene, const Motion& motion, const PainterOptions& whole);
 
     void paint(const std::vector<double>& instants, Image& out) override;
+    ChangedParts paint_next(double t, Image& picture) override;
+    bool draws_each_anew() const override { return first_->draws_each_anew(); }
     std::string renderer() override { return first_->renderer(); }
     std::map<std::string, DrawnEffect> effects() const override;
     double draw_cpu_s() const override;
@@ -30,6 +33,7 @@ class SideBySide : public Picture {
     static int divider_px(int width_px, int height_px);
 
   private:
+    void compose(const std::vector<PixelRect>& parts, Image& picture) const;
     PictureHalf half_of(PicturePart part, const Motion& motion) const;
 
     const SecondRun& run_;
@@ -41,6 +45,7 @@ class SideBySide : public Picture {
     PictureHalf first_half_, second_half_;
     std::unique_ptr<Picture> first_, second_;
     Image first_picture_, second_picture_;
+    const std::uint8_t* kept_pixels_ = nullptr;  ///< of the picture that paint_next() goes on with
     double over_cpu_s_ = 0;
 };
 

@@ -20,15 +20,16 @@
 #include "render/balls/drawn_balls.h"
 #include "render/balls/shadow_tiles.h"
 #include "render/blend/alpha_encoding.h"
-#include "render/blend/linear_layer.h"
-#include "render/blend/picture_layer.h"
 #include "render/blend/picture_mean.h"
 #include "render/gl/driver_clock.h"
 #include "render/gl/offscreen.h"
 #include "render/overlay/elements.h"
 #include "render/picture/exposure_groups.h"
+#include "render/picture/frame_changes.h"
 #include "render/picture/frame_passes.h"
+#include "render/picture/moving_layer.h"
 #include "render/picture/picture_setup.h"
+#include "render/picture/picture_target.h"
 #include "render/runs/second_run.h"
 #include "render/view/camera_motion.h"
 #include "render/view/exposure.h"
@@ -65,14 +66,14 @@ class SinglePicture : public Picture {
           context_(contexts_->main),
           gl_(context_.gl()) {
         context_.make_current();
-        check_size();
+        target_.emplace(context_, width_px_, height_px_);
         const double begin = clock_.now_s();
         // Of a camera that stands, the background takes about as long as everything else: it is
         // drawn meanwhile. (An exception here breaks the promise, so that the thread ends.)
         std::future<double> drawn;
-        std::promise<const BackgroundPicture*> target;
+        std::promise<const BackgroundPicture*> empty;
         if (!setup_.moving)
-            drawn = on_a_thread([this, &options, promised = target.get_future().share()] {
+            drawn = on_a_thread([this, &options, promised = empty.get_future().share()] {
                 return draw_in_second_context(
                     *contexts_,
                     {setup_.view, setup_.lights, setup_.surfaces, setup_.scale, setup_.kind},
@@ -82,13 +83,12 @@ class SinglePicture : public Picture {
         gl_.Disable(GL_DITHER);
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
         gl_.Enable(GL_FRAMEBUFFER_SRGB);
-        color_ =
-            make_texture(gl_, GL_SRGB8_ALPHA8, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE);
+        target_->make_color();
         background_.emplace(gl_, width_px_, height_px_, setup_.kind);
         passes_.emplace(*contexts_,
                         FramePasses::Contents{scene, second_, transparent_, options.few_pictures},
-                        setup_, color_);
-        target.set_value(&*background_);
+                        setup_, target_->color());
+        empty.set_value(&*background_);
         if (setup_.moving)
             drawing_.emplace(gl_, setup_.kind, BackgroundPrograms::kEachSetOfBodies)
                 .aim(*background_);
@@ -102,7 +102,9 @@ class SinglePicture : public Picture {
             // For a few pictures it is not worth the while to find out.
             if (passes_->has_shadows() && !options.few_pictures)
                 passes_->see_in_tiles(setup_.view, setup_.lights, seen_in_tiles());
-            check_not_blank();
+            target_->check_not_blank(transparent_, *background_, passes_->frame());
+            if (!options.few_pictures)
+                changes_.emplace(setup_.view, setup_.lights, scene.balls.size());
         }
         gl_.check("preparing the picture");
         draw_cpu_s_ += clock_.now_s() - begin;
@@ -125,23 +127,18 @@ class SinglePicture : public Picture {
         context_.make_current();
         if (out.width_px != width_px_ || out.height_px != height_px_)
             out = Image(width_px_, height_px_);
-        bool blurred = false;
-        if (mean_ && instants.size() == 1) {
-            const Blur blur = blur_at(t);
-            blurred = blur.count > 1;
-            most_instants_ = std::max(most_instants_, blur.count);
-            if (blurred) sum_exposure(blur, t);
-        }
+        if (changes_) changes_->forget();
+        if (!setup_.moving) layer_.update(t);
+        const bool blurred = mean_ && instants.size() == 1 && sum_exposure(t);
         if (setup_.moving) {
             move_camera(t);
-            if (!checked_) check_not_blank();
+            if (!target_->checked())
+                target_->check_not_blank(transparent_, *background_, passes_->frame());
         }
-        draw_picture(drawn_balls_at(instants), t, {{0, 0, width_px_, height_px_}});
+        draw_picture(drawn_balls_at(instants), t, {target_->whole()});
         gl_.Finish();
         const double drawn = clock_.now_s();
-        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, passes_->frame().name());
-        gl_.ReadPixels(0, 0, width_px_, height_px_, GL_BGRA, GL_UNSIGNED_BYTE, out.bgra.data());
-        gl_.check("drawing a frame");
+        target_->read({target_->whole()}, passes_->frame(), out);
         const double read = clock_.now_s();
         if (blurred) mean_->write(out);
         if (transparent_) encode_alpha(out);
@@ -149,6 +146,55 @@ class SinglePicture : public Picture {
         draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
         read_cpu_s_ += read - drawn;
     }
+
+    ChangedParts paint_next(double t, Image& picture) override {
+        const bool kept = picture.width_px == width_px_ && picture.height_px == height_px_ &&
+                          picture.bgra.data() == kept_pixels_;
+        if (!changes_) {
+            paint({t}, picture);
+            return {};
+        }
+        if (!kept) {
+            changes_->forget();
+            setup_.overlay.forget_over();
+            if (picture.width_px != width_px_ || picture.height_px != height_px_)
+                picture = Image(width_px_, height_px_);
+            kept_pixels_ = picture.bgra.data();
+        }
+        const double begin = clock_.now_s();
+        context_.make_current();
+        std::vector<PixelRect> others = blurred_;
+        if (const PixelRect changed = layer_.update(t); !changed.empty()) others.push_back(changed);
+        const bool blurred = mean_ && sum_exposure(t);
+        others.insert(others.end(), blurred_.begin(), blurred_.end());
+        DrawnBalls bodies = drawn_balls_at({t});
+        const ShadowTiles* shadows = passes_->cast(bodies);
+        const std::vector<BallInView> images = passes_->images(bodies);
+        changes_->update(bodies, images, shadows, others);
+        TileMask tiles = changes_->tiles();
+        if (!tiles.empty()) {
+            target_->restore(changes_->rects(), *background_, passes_->frame());
+            passes_->draw_below_within(tiles, bodies, *background_);
+            layer_.lay_over(changes_->rects(), passes_->frame(), target_->color());
+            passes_->draw_balls(bodies, *background_);
+            gl_.Finish();
+        }
+        setup_.overlay.find_changes_over(t, tiles);
+        const std::vector<PixelRect> parts = tiles.rects();
+        const double drawn = clock_.now_s();
+        if (kept) target_->keep(parts, picture);
+        target_->read(parts, passes_->frame(), picture);
+        const double read = clock_.now_s();
+        if (blurred) mean_->write(picture);
+        if (transparent_)
+            for (const PixelRect& part : parts) encode_alpha(picture, part);
+        setup_.overlay.redraw_over(t, picture);
+        draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
+        read_cpu_s_ += read - drawn;
+        return kept ? ChangedParts::only(target_->differing(parts, picture)) : ChangedParts{};
+    }
+
+    bool draws_each_anew() const override { return !changes_; }
 
     std::string renderer() override {
         context_.make_current();
@@ -159,16 +205,6 @@ class SinglePicture : public Picture {
     double read_cpu_s() const override { return read_cpu_s_; }
 
   private:
-    void check_size() const {
-        GLint largest = 0;
-        gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-        if (width_px_ <= largest && height_px_ <= largest) return;
-        throw Failure(FailureKind::kRun,
-                      fmt::format("a picture of {} x {} pixels is too large: the driver draws at "
-                                  "most {} x {}",
-                                  width_px_, height_px_, largest, largest));
-    }
-
     /// What the thread that draws the background does next: where this is the one picture that
     /// is drawn, programs are compiled by both threads.
     std::function<void(const BackgroundPicture&)> shares(const PainterOptions& options) {
@@ -206,9 +242,10 @@ class SinglePicture : public Picture {
 
     /// Everything below the text, at the view as it is; of the background, what `parts` cover.
     void draw_picture(const DrawnBalls& bodies, double t, const std::vector<PixelRect>& parts) {
-        copy_background(parts);
+        target_->restore(parts, *background_, passes_->frame());
         passes_->draw_below(bodies, *background_);
-        if (setup_.overlay.has_moving_layer()) draw_moving_layer(t, parts);
+        if (setup_.moving) layer_.update(t);  // the view is another one
+        layer_.lay_over(parts, passes_->frame(), target_->color());
         passes_->draw_balls(bodies, *background_);
     }
 
@@ -239,8 +276,13 @@ class SinglePicture : public Picture {
     }
 
     static_assert(kMostInstants <= PictureMean::kMost);
-    /// Sums pictures wherever something moves. Trails and the like are those of t.
-    void sum_exposure(const Blur& blur, double t) {
+    /// Sums pictures wherever something moves; false where nothing does. Trails and the like are
+    /// those of t.
+    bool sum_exposure(double t) {
+        blurred_.clear();
+        const Blur blur = blur_at(t);
+        most_instants_ = std::max(most_instants_, blur.count);
+        if (blur.count < 2) return false;
         mean_->clear();
         if (setup_.moving) {
             TileMask mask(width_px_, height_px_, ShadowTiles::kTilePx);
@@ -248,10 +290,10 @@ class SinglePicture : public Picture {
             mean_->begin(mask.parts(), blur.count);
             for (const double instant : exposure_instants(blur.exposure, blur.count)) {
                 move_camera(instant);
-                draw_picture(drawn_balls_at({instant}), t, {{0, 0, width_px_, height_px_}});
+                draw_picture(drawn_balls_at({instant}), t, {target_->whole()});
                 mean_->add(gl_, passes_->frame());
             }
-            return;
+            return true;
         }
         TileOwners owners(width_px_, height_px_, ShadowTiles::kTilePx, blur.ways_px.size());
         for (const double instant : exposure_instants(blur.exposure, blur.count))
@@ -260,6 +302,7 @@ class SinglePicture : public Picture {
             std::vector<PixelRect> changing;
             for (const TileMask::Part& part : group.parts) changing.push_back(part.bounds);
             changing = apart(changing);
+            blurred_.insert(blurred_.end(), changing.begin(), changing.end());
             mean_->begin(group.parts, group.count);
             for (const double instant : exposure_instants(blur.exposure, group.count)) {
                 DrawnBalls bodies = drawn_balls_at({instant});
@@ -268,59 +311,12 @@ class SinglePicture : public Picture {
                 mean_->add(gl_, passes_->frame());
             }
         }
+        return true;
     }
 
     void lay_background_layer() {
         const Image layer = setup_.overlay.background_layer();
         if (layer.width_px != 0) background_->lay_over(layer);
-    }
-
-    void draw_moving_layer(double t, const std::vector<PixelRect>& parts) {
-        const PixelRect changed = setup_.overlay.update_moving_layer(t);
-        const Image& layer = setup_.overlay.moving_layer();
-        const PixelRect whole{0, 0, width_px_, height_px_};
-        constexpr std::size_t kMostParts = 16;
-        if (setup_.moving) {
-            layer_parts_ = {filled_part(layer)};
-        } else if (!changed.empty()) {
-            layer_parts_.push_back(whole.common(changed));
-            layer_parts_ = apart(layer_parts_, kMostParts);
-        }
-        for (const PixelRect& part : parts)
-            for (const PixelRect& filled : layer_parts_)
-                lay_over(gl_, layer, filled.common(part), passes_->frame(), color_);
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
-    }
-
-    /// The parts must not overlap.
-    void copy_background(const std::vector<PixelRect>& parts) {
-        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, background_->color_framebuffer().name());
-        gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, passes_->frame().name());
-        for (const PixelRect& part : parts)
-            gl_.BlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top,
-                                part.right, part.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
-        gl_.Viewport(0, 0, width_px_, height_px_);
-    }
-
-    /// Drivers are known that draw nothing and report no error. A picture is opaque, or, where it
-    /// shows nothing, transparent; never in between where no edge is.
-    void check_not_blank() {
-        checked_ = true;
-        constexpr float kMark = 0.3F;
-        constexpr int kMarkByte = 77;
-        gl_.BindFramebuffer(GL_FRAMEBUFFER, passes_->frame().name());
-        gl_.ClearColor(kMark, kMark, kMark, transparent_ ? kMark : 0.0F);
-        gl_.Clear(GL_COLOR_BUFFER_BIT);
-        const int x = width_px_ / 2, y = height_px_ / 2;
-        copy_background({{x, y, x + 1, y + 1}});
-        std::uint8_t pixel[4] = {};
-        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, passes_->frame().name());
-        gl_.ReadPixels(x, y, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
-        if (transparent_ ? pixel[3] == kMarkByte : pixel[3] != 255)
-            throw Failure(FailureKind::kRun,
-                          "the driver draws blank pictures and reports no error (" +
-                              context_.renderer() + ")");
     }
 
     const Scene& scene_;
@@ -336,15 +332,16 @@ class SinglePicture : public Picture {
     OffscreenContext& context_;  // outlives every owner of GL objects below
     const Gl& gl_;
     DriverClock clock_;
-    bool checked_ = false;  ///< that the driver draws anything
-    GlTexture color_;
+    std::optional<PictureTarget> target_;
     std::optional<BackgroundPicture> background_;
     std::optional<BackgroundDrawing> drawing_;  ///< again and again, where the camera moves
     std::optional<FramePasses> passes_;
-    /// What moves below the balls has never filled anything else.
-    std::vector<PixelRect> layer_parts_;
-    std::optional<PictureMean> mean_;  ///< where there is a shutter
-    int most_instants_ = 1;            ///< of one picture
+    MovingLayer layer_{gl_, setup_.overlay, setup_.moving};
+    std::optional<FrameChanges> changes_;        ///< where the camera stands, of a film
+    const std::uint8_t* kept_pixels_ = nullptr;  ///< of the picture that paint_next() goes on with
+    std::vector<PixelRect> blurred_;             ///< what was averaged in it, and around
+    std::optional<PictureMean> mean_;            ///< where there is a shutter
+    int most_instants_ = 1;                      ///< of one picture
     double read_cpu_s_ = 0;
 };
 

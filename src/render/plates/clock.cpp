@@ -75,9 +75,16 @@ PixelRect ClockElement::rect() const {
     return PixelRect::at(widest.x, y_, widest.picture.width_px, height_px_);
 }
 
+Appearance ClockElement::appearance(double t) {
+    const std::string number = text(t);
+    const Plate& plate = plate_for(number);
+    return {{PixelRect::at(plate.x, y_, plate.picture.width_px, height_px_)},
+            {number.begin(), number.end()}};
+}
+
 void ClockElement::draw(double t, Image& picture) {
     const std::string number = text(t);
-    const Plate& plate = plates_[std::min(number.size() - shortest_, plates_.size() - 1)];
+    const Plate& plate = plate_for(number);
     lay_over(plate.picture, plate.x, y_, picture);
     int x = plate.x + number_px_;
     for (const char c : number) {

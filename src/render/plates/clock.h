@@ -1,6 +1,7 @@
 // The clock: the instant that a frame shows, in a corner of the picture.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ class ClockElement : public Element {
                  const Palette& palette = {});
 
     void draw(double t, Image& picture) override;
+    Appearance appearance(double t) override;
     /// Where the widest plate of the film stands.
     PixelRect rect() const override;
 
@@ -34,6 +36,9 @@ class ClockElement : public Element {
         int x = 0;  ///< left edge in the picture
         Image picture;
     };
+    const Plate& plate_for(const std::string& number) const {
+        return plates_[std::min(number.size() - shortest_, plates_.size() - 1)];
+    }
     Plate make_plate(const Font& font, int number_px) const;
 
     Palette palette_;

@@ -236,8 +236,20 @@ void PlotElement::segment(std::size_t i, const TrailPoint& to, bool for_good) {
                   for_good);
 }
 
+double PlotElement::shown_instant(double t) const {
+    return std::clamp(t, scene_.film.start, std::max(motion_.duration, scene_.film.start));
+}
+
+Appearance PlotElement::appearance(double t) {
+    // A dot at a curve's end may reach over the plate's edge.
+    const int around = static_cast<int>(std::ceil((kDotPx + 2) * unit_));
+    return {
+        {{rect_.left - around, rect_.top - around, rect_.right + around, rect_.bottom + around}},
+        {shown_instant(t)}};
+}
+
 void PlotElement::draw(double t, Image& picture) {
-    t = std::clamp(t, scene_.film.start, std::max(motion_.duration, scene_.film.start));
+    t = shown_instant(t);
     curves_->take_back();
     if (t < last_) {
         start_over();

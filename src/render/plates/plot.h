@@ -38,6 +38,7 @@ class PlotElement : public Element {
                 const std::vector<PixelRect>& taken, const Palette& palette);
 
     void draw(double t, Image& picture) override;
+    Appearance appearance(double t) override;
     PixelRect rect() const override { return rect_; }
     const PlotScale& scale() const { return scale_; }  ///< px from the plate's corner
 
@@ -51,6 +52,7 @@ class PlotElement : public Element {
     void make_plate(const PlotAxes& axes);
     void draw_grid(Canvas& canvas, const PlotAxes& axes) const;
     void draw_names(Canvas& canvas) const;
+    double shown_instant(double t) const;
     void start_over();
     void segment(std::size_t line, const TrailPoint& to, bool for_good);
 

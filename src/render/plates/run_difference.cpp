@@ -204,6 +204,11 @@ void RunDifference::choose_place(int width_px, int height_px, const Surroundings
     rect_ = rect_.with_top(std::max(rect_.top, 0));
 }
 
+Appearance RunDifference::appearance(double t) {
+    const std::string line = distance_line(t);
+    return {{rect_}, {line.begin(), line.end()}};
+}
+
 void RunDifference::draw(double t, Image& picture) {
     Image plate = plate_;
     Canvas canvas(plate);

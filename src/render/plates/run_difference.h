@@ -34,6 +34,7 @@ class RunDifference : public Element {
                   int height_px, const Surroundings& around, const Palette& palette);
 
     void draw(double t, Image& picture) override;
+    Appearance appearance(double t) override;
     PixelRect rect() const override { return rect_; }
     /// The line that changes with time.
     std::string distance_line(double t) const;

@@ -201,6 +201,8 @@ TextElement::TextElement(const Request& request, int width_px, int height_px,
     canvas.finish();
 }
 
+Appearance TextElement::appearance(double /*t*/) { return {{rect_}, {}}; }
+
 void TextElement::draw(double /*t*/, Image& picture) {
     lay_over(picture_, rect_.left, rect_.top, picture);
 }

@@ -31,6 +31,7 @@ class TextElement : public Element {
                 const std::vector<PixelRect>& taken, const Palette& palette);
 
     void draw(double t, Image& picture) override;
+    Appearance appearance(double t) override;
     PixelRect rect() const override { return rect_; }
     const std::vector<std::string>& lines() const { return lines_; }
 

@@ -157,6 +157,10 @@ VerdictElement::VerdictElement(const Scene& scene, const Motion& motion,
     }
 }
 
+Appearance VerdictElement::appearance(double t) {
+    return shown_at(t) ? Appearance{{rect_}, {}} : Appearance{};
+}
+
 void VerdictElement::draw(double t, Image& picture) {
     if (shown_at(t)) lay_over(plate_, rect_.left, rect_.top, picture);
 }

@@ -27,6 +27,7 @@ class VerdictElement : public Element {
     /// Shown in the film's last two seconds, but never before the rebound's top.
     bool shown_at(double t) const { return t >= from_s_; }
     void draw(double t, Image& picture) override;
+    Appearance appearance(double t) override;
     PixelRect rect() const override { return rect_; }
 
   private:

@@ -80,7 +80,9 @@ float seen_part(vec3 u, vec3 d, float pixel) {
 // Light on the point with normal n (view space) of a body of the given colour and gloss.
 vec3 lit(vec3 body, vec2 gloss, vec3 n, vec3 d_unit, float blur) {
     float key = v_row_x.w, open = 1.0;
-#ifndef GHOST
+#if !defined(GHOST) && !defined(NO_CASTERS)
+    // A software rasteriser runs through this once even if there is none: most balls have another
+    // program.
     for (int i = 0; i < v_casters.y; ++i) {
         vec4 caster = texelFetch(u_casters, v_casters.x + i);
         vec3 rel = caster.xyz - n;

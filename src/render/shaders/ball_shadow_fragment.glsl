@@ -6,6 +6,9 @@ uniform samplerBuffer u_casters;
 uniform usampler2D u_g_buffer;  // background_picture.h
 
 flat in ivec2 v_list;  // first caster, number of casters
+#ifdef ONE_CASTER
+flat in vec4 v_caster;  // most tiles have no other, and need not look for it at each pixel
+#endif
 
 out vec4 out_factor;
 
@@ -41,7 +44,11 @@ void main() {
         float key = 1.0, open = 1.0;
         int i = 0;
         do {  // every tile has a caster
+#ifdef ONE_CASTER
+            vec4 caster = v_caster;
+#else
             vec4 caster = texelFetch(u_casters, v_list.x + i);
+#endif
             vec3 rel = caster.xyz - p;
             float along = dot(rel, u_light);
             float away2 = dot(rel, rel);
@@ -52,7 +59,11 @@ void main() {
             float near2 = min(caster.w * caster.w / away2, 1.0);
             float fade = max(1.0 - away2 / (kAmbientReach2 * caster.w * caster.w), 0.0);
             open *= 1.0 - 0.92 * fade * near2 * max(dot(n, rel), 0.0) * inversesqrt(away2);
+#ifdef ONE_CASTER
+        } while (false);
+#else
         } while (++i < v_list.y);
+#endif
         // Nothing is shaded in the sky: there both parts are 0.
         factor -= part * (direct * (1.0 - key) + ambient * (1.0 - open));
     } while (++layer < layers);

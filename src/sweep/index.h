@@ -1,0 +1,25 @@
+// The table of a sweep's runs, and what the data set as a whole is.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sweep/plan.h"
+#include "sweep/run_record.h"
+#include "sweep/sweep_file.h"
+
+namespace carom {
+
+struct IndexCounts {
+    std::int64_t done = 0, failed = 0, missing = 0;  ///< invalid ones count as failed
+    std::vector<RunRecord> first_failed;             ///< some of them, in order
+};
+
+/// Writes index.csv and dataset.json from the records of all runs, each only where its text is
+/// another. A record of other values counts as missing. `versions` are those of the libraries.
+IndexCounts write_index(const Sweep& sweep, const Plan& plan, const std::string& dir,
+                        const std::map<std::string, std::string>& versions);
+
+}  // namespace carom

@@ -1,0 +1,203 @@
+#include "sweep/results.h"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/failure.h"
+#include "scene/scalar.h"
+#include "sweep/measured.h"
+
+namespace carom {
+
+namespace {
+
+/// muParser hands it on to the functions: which run they are about. Null while an expression is
+/// only looked at.
+struct Subject {
+    const MeasuredRun* run = nullptr;
+};
+
+const MeasuredRun* run_of(void* subject) { return static_cast<Subject*>(subject)->run; }
+
+/// From a member of MeasuredRun to what muParser calls.
+template <auto Member>
+double of_name(void* subject, const char* name) {
+    return run_of(subject) == nullptr ? 0 : (run_of(subject)->*Member)(name);
+}
+template <auto Member>
+double of_name_and_number(void* subject, const char* name, double number) {
+    return run_of(subject) == nullptr ? 0 : (run_of(subject)->*Member)(name, number);
+}
+template <int Axis>
+double coordinate(void* subject, const char* name, double t) {
+    return run_of(subject) == nullptr ? 0 : run_of(subject)->coordinate(name, Axis, t);
+}
+template <int Axis>
+double velocity(void* subject, const char* name, double t) {
+    return run_of(subject) == nullptr ? 0 : run_of(subject)->velocity(name, Axis, t);
+}
+template <EventKind Kind>
+double begin_of(void* subject, const char* name) {
+    return run_of(subject) == nullptr ? 0 : run_of(subject)->event_time(name, Kind);
+}
+
+void define(mu::Parser& parser, Subject& subject, double& duration, double& balls) {
+    // Nothing may be computed once for all runs: the functions depend on the subject.
+    constexpr bool kFold = false;
+    const auto named = [&](const char* name, double (*f)(void*, const char*)) {
+        parser.DefineFunUserData(name, f, &subject, kFold);
+    };
+    const auto numbered = [&](const char* name, double (*f)(void*, const char*, double)) {
+        parser.DefineFunUserData(name, f, &subject, kFold);
+    };
+    using Run = MeasuredRun;
+    named("peaks", of_name<&Run::peaks>);
+    named("impacts", of_name<&Run::impacts>);
+    named("slide_time", begin_of<EventKind::kSlide>);
+    named("roll_time", begin_of<EventKind::kRoll>);
+    named("rest_time", begin_of<EventKind::kRest>);
+    named("leave_time", begin_of<EventKind::kLeave>);
+    numbered("peak", of_name_and_number<&Run::peak>);
+    numbered("peak_time", of_name_and_number<&Run::peak_time>);
+    numbered("impact_time", of_name_and_number<&Run::impact_time>);
+    numbered("approach_speed", of_name_and_number<&Run::approach_speed>);
+    numbered("separation_speed", of_name_and_number<&Run::separation_speed>);
+    numbered("impulse", of_name_and_number<&Run::impulse>);
+    numbered("x", coordinate<0>);
+    numbered("y", coordinate<1>);
+    numbered("z", coordinate<2>);
+    numbered("vx", velocity<0>);
+    numbered("vy", velocity<1>);
+    numbered("vz", velocity<2>);
+    numbered("speed", of_name_and_number<&Run::speed>);
+    numbered("spin", of_name_and_number<&Run::spin>);
+    numbered("kinetic_energy", of_name_and_number<&Run::kinetic_energy>);
+    numbered("energy", of_name_and_number<&Run::energy>);
+    parser.DefineVar("duration", &duration);
+    parser.DefineVar("balls", &balls);
+}
+
+/// The names in quotes, each of a pair by itself.
+std::vector<std::string> names_in(const std::string& expression) {
+    std::vector<std::string> names;
+    std::size_t open = expression.find('"');
+    while (open != std::string::npos) {
+        const std::size_t close = expression.find('"', open + 1);
+        if (close == std::string::npos) break;
+        const std::string text = expression.substr(open + 1, close - open - 1);
+        const std::size_t slash = text.find('/');
+        names.push_back(text.substr(0, slash));
+        if (slash != std::string::npos) names.push_back(text.substr(slash + 1));
+        open = expression.find('"', close + 1);
+    }
+    return names;
+}
+
+}  // namespace
+
+const std::vector<ResultFunction>& result_functions() {
+    static const std::vector<ResultFunction> kAll = {
+        {"peaks(\"a\")", "", "how many peaks ball a has"},
+        {"peak(\"a\", 1)", "m", "the gap under it at its first peak"},
+        {"peak_time(\"a\", 1)", "s", "when that is"},
+        {"impacts(\"a\")", "", "how many impacts it has"},
+        {"impact_time(\"a\", 1)", "s", "when the first one is"},
+        {"approach_speed(\"a\", 1)", "m/s", "along the normal before it"},
+        {"separation_speed(\"a\", 1)", "m/s", "along the normal after it"},
+        {"impulse(\"a\", 1)", "N s", "along the normal"},
+        {"slide_time(\"a\")", "s", "when the first sliding contact begins"},
+        {"roll_time(\"a\")", "s", "when the first rolling one begins"},
+        {"rest_time(\"a\")", "s", "when it first comes to rest"},
+        {"leave_time(\"a\")", "s", "when a lasting contact first ends"},
+        {"x(\"a\", 0.5)", "m", "where its centre is after 0.5 s; also `y`, `z`"},
+        {"vx(\"a\", 0.5)", "m/s", "its velocity then; also `vy`, `vz`"},
+        {"speed(\"a\", 0.5)", "m/s", "the length of that"},
+        {"spin(\"a\", 0.5)", "rad/s", "the length of its angular velocity"},
+        {"kinetic_energy(\"a\", 0.5)", "J", "of translation and rotation; `\"*\"`: of all balls"},
+        {"energy(\"a\", 0.5)", "J", "the same with that of its place, 0 at the origin"},
+        {"duration", "s", "of the motion"},
+        {"balls", "", "how many balls the scene has"},
+    };
+    return kAll;
+}
+
+std::string result_reference_markdown() {
+    std::string text = "### Functions of results\n\n| Example | Unit | Value |\n|---|---|---|\n";
+    for (const ResultFunction& one : result_functions())
+        text += fmt::format("| `{}` | {} | {} |\n", one.example, one.unit, one.meaning);
+    return text + "\n";
+}
+
+std::string wrong_expression(const std::string& expression, const std::vector<std::string>& names,
+                             const std::vector<std::string>& prefixes) {
+    for (const std::string& name : names_in(expression)) {
+        if (name == "*" || std::find(names.begin(), names.end(), name) != names.end()) continue;
+        const auto begins = [&](const std::string& prefix) { return name.starts_with(prefix); };
+        if (std::any_of(prefixes.begin(), prefixes.end(), begins)) continue;
+        return fmt::format("there is no ball or surface {}{}", quoted_excerpt(name),
+                           suggestion(name, names));
+    }
+    Subject subject;
+    double duration = 1, balls = 1;
+    try {
+        mu::Parser parser;
+        define(parser, subject, duration, balls);
+        parser.SetExpr(expression);
+        parser.Eval();
+    } catch (const mu::Parser::exception_type& error) {
+        return fmt::format("not an expression: {}", error.GetMsg());
+    }
+    return "";
+}
+
+class ResultTable::Impl {
+  public:
+    explicit Impl(const std::vector<ResultSpec>& specs) : specs_(specs), parsers_(specs.size()) {
+        for (std::size_t i = 0; i < specs.size(); ++i) {
+            define(parsers_[i], subject_, duration_, balls_);
+            parsers_[i].SetExpr(specs[i].expression);
+        }
+    }
+
+    std::vector<std::optional<double>> evaluate(const Scene& scene, const Motion& motion) {
+        const MeasuredRun run(scene, motion);
+        subject_.run = &run;
+        duration_ = run.duration();
+        balls_ = run.balls();
+        std::vector<std::optional<double>> values;
+        for (std::size_t i = 0; i < parsers_.size(); ++i) values.push_back(value(i));
+        subject_.run = nullptr;
+        return values;
+    }
+
+  private:
+    std::optional<double> value(std::size_t i) {
+        try {
+            const double number = parsers_[i].Eval();
+            return std::isfinite(number) ? std::optional(number) : std::nullopt;
+        } catch (const mu::Parser::exception_type& error) {
+            throw Failure(FailureKind::kRun,
+                          fmt::format("results: {}: {}", specs_[i].name, error.GetMsg()));
+        }
+    }
+
+    std::vector<ResultSpec> specs_;
+    std::vector<mu::Parser> parsers_;
+    Subject subject_;
+    double duration_ = 0, balls_ = 0;
+};
+
+ResultTable::ResultTable(const std::vector<ResultSpec>& specs)
+    : impl_(std::make_unique<Impl>(specs)) {}
+ResultTable::~ResultTable() = default;
+
+std::vector<std::optional<double>> ResultTable::evaluate(const Scene& scene, const Motion& motion) {
+    return impl_->evaluate(scene, motion);
+}
+
+std::string expression_library_version() { return mu::Parser().GetVersion(mu::pviBRIEF); }
+
+}  // namespace carom

@@ -1,0 +1,51 @@
+// What is measured of a run: expressions of its motion, such as peak("a", 1).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motion/motion.h"
+#include "scene/scene.h"
+#include "sweep/sweep_file.h"
+
+namespace carom {
+
+/// A function of expressions, or a number that has a name.
+struct ResultFunction {
+    const char* example;
+    const char* unit;
+    const char* meaning;
+};
+const std::vector<ResultFunction>& result_functions();
+
+/// All of them in Markdown, as they stand in docs/sweeps.md.
+std::string result_reference_markdown();
+
+/// Why this is no expression, "" for one that is. `balls` and `surfaces` are the names that may
+/// stand in it; a name that begins with one of `prefixes` may be one of a drawn ball.
+std::string wrong_expression(const std::string& expression, const std::vector<std::string>& names,
+                             const std::vector<std::string>& prefixes);
+
+/// Parsed once, evaluated for many runs; each thread has its own.
+class ResultTable {
+  public:
+    explicit ResultTable(const std::vector<ResultSpec>& specs);
+    ~ResultTable();
+    ResultTable(const ResultTable&) = delete;
+    ResultTable& operator=(const ResultTable&) = delete;
+
+    /// In the order of `specs`; none where the motion has no such thing (a third peak of two).
+    /// Failure(kRun) for what cannot be evaluated, such as a ball that this scene has not.
+    std::vector<std::optional<double>> evaluate(const Scene& scene, const Motion& motion);
+
+  private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Versions of the libraries that this folder names.
+std::string expression_library_version();
+
+}  // namespace carom
