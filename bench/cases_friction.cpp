@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "../tests/sim/slip_reference.h"
 #include "case.h"
 #include "trajectory_measures.h"
 
@@ -73,29 +74,6 @@ Run down_a_slope(double mu, double k) {
     return run;
 }
 
-struct Slip {
-    Vec3 slip, velocity, position;
-};
-
-/// The classical Runge-Kutta method with steps of 1e-5 s: its own error is below 1e-15.
-Slip integrate_slip(const Vec3& along, double grip, double k, Slip now, double seconds) {
-    const auto rate = [&](const Slip& s) {
-        const Vec3 friction = -grip * s.slip.normalized();
-        return Slip{along + (1 + 1 / k) * friction, along + friction, s.velocity};
-    };
-    const auto ahead = [](const Slip& s, const Slip& d, double h) {
-        return Slip{s.slip + h * d.slip, s.velocity + h * d.velocity, s.position + h * d.position};
-    };
-    const int steps = static_cast<int>(std::lround(seconds / 1e-5));
-    const double h = seconds / steps;
-    for (int i = 0; i < steps; ++i) {
-        const Slip a = rate(now), b = rate(ahead(now, a, h / 2)), c = rate(ahead(now, b, h / 2)),
-                   d = rate(ahead(now, c, h));
-        now = ahead(ahead(ahead(ahead(now, a, h / 6), b, h / 3), c, h / 3), d, h / 6);
-    }
-    return now;
-}
-
 Run slip_across(double k) {
     Run run;
     run.overrides = {set("balls.ball.inertia", k)};
@@ -103,8 +81,9 @@ Run slip_across(double k) {
         const double a = M_PI / 18, mu = 0.3, t = 0.25;
         const Vec3 normal(std::sin(a), 0, std::cos(a)), g = scene.simulation.gravity;
         const Ball& ball = scene.balls[0];
-        const Slip end = integrate_slip(g - g.dot(normal) * normal, -mu * g.dot(normal), k,
-                                        {ball.velocity, ball.velocity, ball.position}, t);
+        const testing::Slip end =
+            testing::slip_reference(g - g.dot(normal) * normal, -mu * g.dot(normal), k,
+                                    {ball.velocity, ball.velocity, ball.position}, t);
         const BallState s = motion.balls[0].at(t);
         return Measures{
             vector_measure(fmt::format("k = {:.3g}: place at 0.25 s, off by m", k), s.position,

@@ -5,20 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
+#include "clock.h"
 #include "scene/scene.h"
 #include "sim/simulate.h"
 
 namespace {
 
 using namespace carom;
-
-double cpu_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+using bench::cpu_seconds;
 
 Scene scene_with(const SurfaceShape& shape, double friction, const Vec3& position,
                  const Vec3& velocity) {

@@ -5,22 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <random>
 #include <string>
 
+#include "best_of.h"
 #include "scene/scene.h"
 #include "sim/simulate.h"
 
 namespace {
 
 using namespace carom;
-
-double cpu_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+using bench::best_of;
+using bench::Measured;
 
 /// Materials: [0] the default one, [1] with this restitution against it.
 Scene scene_with(double restitution, double gravity, Method method) {
@@ -47,22 +43,6 @@ void add_ball(Scene& scene, const Vec3& position, const Vec3& velocity) {
     ball.velocity = velocity;
     ball.material = 1;
     scene.balls.push_back(ball);
-}
-
-struct Measured {
-    double seconds = 1e300;  ///< CPU
-    SimulationResult result;
-};
-
-Measured best_of(const Scene& scene, int runs) {
-    Measured best;
-    for (int i = 0; i < runs; ++i) {
-        const double start = cpu_seconds();
-        SimulationResult result = simulate(scene);
-        const double seconds = cpu_seconds() - start;
-        if (seconds < best.seconds) best = {seconds, std::move(result)};
-    }
-    return best;
 }
 
 Scene drop(double restitution, Method method) {

@@ -7,13 +7,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "command_line.h"
 #include "hard_cases_report.h"
 
 namespace {
@@ -27,32 +26,6 @@ struct Options {
     double cpu_limit_s = 10;
     std::string out;
 };
-
-Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (i + 1 >= argc) throw std::invalid_argument(fmt::format("{} needs a value", word));
-            return argv[++i];
-        };
-        if (word == "--quick")
-            options.quick = true;
-        else if (word == "-v")
-            options.verbose = true;
-        else if (word == "--case")
-            options.cases.push_back(value());
-        else if (word == "--engine")
-            options.engines.push_back(value());
-        else if (word == "--limit")
-            options.cpu_limit_s = std::stod(value());
-        else if (word == "--out")
-            options.out = value();
-        else
-            throw std::invalid_argument(fmt::format("unknown option '{}'", word));
-    }
-    return options;
-}
 
 bool wanted(const std::vector<std::string>& words, const std::string& name, bool whole) {
     return words.empty() || std::any_of(words.begin(), words.end(), [&](const std::string& w) {
@@ -141,13 +114,15 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(parse(argc, argv));
-    } catch (const std::invalid_argument& error) {
-        fmt::print(stderr, "hard_cases: {}\n", error.what());
-        return 2;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "hard_cases: {}\n", error.what());
-        return 1;
-    }
+    Options options;
+    CLI::App line({}, "hard_cases");
+    line.add_flag("--quick", options.quick, "a few cases, whose errors must hold");
+    line.add_flag("-v", options.verbose, "say more");
+    line.add_option("--case", options.cases, "a part of a case's name (repeatable)")
+        ->allow_extra_args(false);
+    line.add_option("--engine", options.engines, "a part of an engine's name (repeatable)")
+        ->allow_extra_args(false);
+    line.add_option("--limit", options.cpu_limit_s, "CPU seconds of a run");
+    line.add_option("--out", options.out, "folder for tables and plots");
+    return run_line(line, argc, argv, [&] { return run(options); });
 }

@@ -9,14 +9,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
+#include "command_line.h"
 #include "random/reduce.h"
 #include "random/scene_text.h"
 #include "random/transforms.h"
@@ -36,32 +35,6 @@ struct Options {
     int tries = 0;
     bool verbose = false;
 };
-
-Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (i + 1 >= argc) throw std::invalid_argument(fmt::format("{} needs a value", word));
-            return argv[++i];
-        };
-        if (word == "--count")
-            options.count = std::stoi(value());
-        else if (word == "--seed")
-            options.seed = std::stoull(value());
-        else if (word == "--failures")
-            options.failures = value();
-        else if (word == "--reduce")
-            options.tries = std::stoi(value());
-        else if (word == "-v")
-            options.verbose = true;
-        else if (options.kind.empty() && !word.starts_with('-'))
-            options.kind = word;
-        else
-            throw std::invalid_argument(fmt::format("unknown option '{}'", word));
-    }
-    return options;
-}
 
 Kind kind_named(const std::string& name) {
     for (Kind& kind : all_kinds())
@@ -168,13 +141,13 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(parse(argc, argv));
-    } catch (const std::invalid_argument& error) {
-        fmt::print(stderr, "random_scenes: {}\n", error.what());
-        return 2;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "random_scenes: {}\n", error.what());
-        return 1;
-    }
+    Options options;
+    CLI::App line({}, "random_scenes");
+    line.add_option("kind", options.kind, "tracks, seams, scenes, shapes, laws, air or transforms");
+    line.add_option("--count", options.count, "trials");
+    line.add_option("--seed", options.seed, "of the first one");
+    line.add_option("--failures", options.failures, "folder for the scenes that fail");
+    line.add_option("--reduce", options.tries, "tries to make a failing scene smaller");
+    line.add_flag("-v", options.verbose, "say more");
+    return run_line(line, argc, argv, [&] { return run(options); });
 }

@@ -8,11 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <filesystem>
-#include <stdexcept>
-#include <string_view>
 
+#include "command_line.h"
 #include "engine.h"
 #include "piece_sampling.h"
 #include "plain_ode.h"
@@ -36,31 +34,6 @@ struct Options {
     int seeds = 10;
     std::string out;
 };
-
-Options parse(int argc, char** argv) {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (i + 1 >= argc) throw std::invalid_argument(fmt::format("{} needs a value", word));
-            return argv[++i];
-        };
-        if (word == "--quick")
-            options.quick = true;
-        else if (word == "--task")
-            options.tasks.push_back(value());
-        else if (word == "--finest")
-            options.finest = std::stod(value());
-        else if (word == "--seeds")
-            options.seeds = std::stoi(value());
-        else if (word == "--out")
-            options.out = value();
-        else
-            throw std::invalid_argument(fmt::format("unknown option '{}'", word));
-    }
-    if (options.seeds < 1) throw std::invalid_argument("--seeds must be at least 1");
-    return options;
-}
 
 struct Stepped {
     std::string name;
@@ -178,13 +151,13 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(parse(argc, argv));
-    } catch (const std::invalid_argument& error) {
-        fmt::print(stderr, "simbenchmark: {}\n", error.what());
-        return 2;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "simbenchmark: {}\n", error.what());
-        return 1;
-    }
+    Options options;
+    CLI::App line({}, "simbenchmark");
+    line.add_flag("--quick", options.quick, "a few runs, whose errors must hold");
+    line.add_option("--task", options.tasks, "a part of a task's name (repeatable)")
+        ->allow_extra_args(false);
+    line.add_option("--finest", options.finest, "the finest step, s");
+    line.add_option("--seeds", options.seeds, "runs of a task")->check(CLI::PositiveNumber);
+    line.add_option("--out", options.out, "folder for tables and plots");
+    return run_line(line, argc, argv, [&] { return run(options); });
 }

@@ -7,13 +7,15 @@
 #include <cmath>
 #include <string>
 
-#include "clock.h"
+#include "best_of.h"
 #include "scene/scene.h"
 #include "sim/simulate.h"
 
 namespace {
 
 using namespace carom;
+using bench::best_of;
+using bench::Measured;
 
 void add_surface(Scene& scene, const SurfaceShape& shape) {
     Surface surface;
@@ -28,22 +30,6 @@ void add_ball(Scene& scene, const Vec3& position, double radius) {
     ball.position = position;
     ball.radius = radius;
     scene.balls.push_back(ball);
-}
-
-struct Measured {
-    double seconds = 1e300;  ///< CPU
-    SimulationResult result;
-};
-
-Measured best_of(const Scene& scene, int runs) {
-    Measured best;
-    for (int i = 0; i < runs; ++i) {
-        const double start = bench::cpu_seconds();
-        SimulationResult result = simulate(scene);
-        const double seconds = bench::cpu_seconds() - start;
-        if (seconds < best.seconds) best = {seconds, std::move(result)};
-    }
-    return best;
 }
 
 /// A ball that bounces for ever on a floor, in the middle of so many capsules around it.

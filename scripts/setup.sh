@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
 # Installs what packages.txt lists and this machine lacks, then builds.
-#   scripts/setup.sh [--group film|test|bench|long]... [--preset PRESET]...
+#   scripts/setup.sh [--group film|test|bench|long|package]... [--preset PRESET]... [--only-packages]
 # Without options: group film, preset release. Takes seconds when nothing has changed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-groups=() presets=()
+groups=() presets=() build=1
 while [ $# -gt 0 ]; do
     case "$1" in
         --group)  groups+=("${2:?--group needs a name}"); shift 2 ;;
         --preset) presets+=("${2:?--preset needs a name}"); shift 2 ;;
-        *) echo "setup.sh: unknown option '$1' (known: --group NAME, --preset NAME)" >&2; exit 2 ;;
+        --only-packages) build=0; shift ;;
+        *) echo "setup.sh: unknown option '$1' (known: --group NAME, --preset NAME, --only-packages)" >&2; exit 2 ;;
     esac
 done
 [ ${#groups[@]} -gt 0 ] || groups=(film)
-[ ${#presets[@]} -gt 0 ] || presets=(release)
+[ ${#presets[@]} -gt 0 ] || [ $build = 0 ] || presets=(release)
 
 # ---- Packages: only what is missing ---------------------------------------------------------------
 wanted=()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the library, static and shared, Debug and Release, and the Python module, installs all of it
 # into one prefix, and uses it from there: examples/consumer against each of the four libraries, by
-# CMake and by pkg-config, and the tests of the module. Takes minutes.
+# CMake and by pkg-config, and the tests of the module, which is built as a wheel too. Takes minutes.
 #   scripts/test_package.sh [--release-only]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -50,6 +50,17 @@ export PKG_CONFIG_PATH; PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name carom.
 g++ -std=c++20 examples/consumer/consumer.cpp -o "$work/consumer" $(pkg-config --cflags --libs carom)
 (cd "$work" && LD_LIBRARY_PATH=$(dirname "$library") ./consumer film.mp4 && [ -s film.mp4 ])
 
+test_module() {
+    PYTHONPATH=$1 CAROM=$(find "$prefix" -path '*/bin/carom') CAROM_SOURCE_DIR=$root \
+        /usr/bin/python3 -B tests/python/test_module.py
+}
 echo "package: the Python module"
-PYTHONPATH=$(dirname "$(find "$prefix" -path '*/carom/__init__.py')")/.. CAROM=$(find "$prefix" -path '*/bin/carom') \
-    CAROM_SOURCE_DIR=$root /usr/bin/python3 -B tests/python/test_module.py
+test_module "$(dirname "$(find "$prefix" -path '*/carom/__init__.py')")/.."
+
+# Without network: what builds and what it needs are packages of the system.
+echo "package: the Python module as a wheel"
+CAROM_WHEEL_BUILD=$root/build/package-release /usr/bin/python3 -m pip wheel . --no-index --no-build-isolation --no-deps \
+    --wheel-dir "$work/wheel" >"$work/log" 2>&1 || { tail -50 "$work/log" >&2; exit 1; }
+/usr/bin/python3 -m pip install --no-index --no-deps --target "$work/site" "$work"/wheel/carom-*.whl >"$work/log" 2>&1 ||
+    { tail -50 "$work/log" >&2; exit 1; }
+test_module "$work/site"

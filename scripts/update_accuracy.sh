@@ -43,9 +43,5 @@ echo "Made $(where)." > "$made/environment.md"
 # Each block stands between two markers.
 for block in environment gallery hard_cases hard_cases_rows hard_cases_failures simbenchmark_targets \
              simbenchmark_bouncing simbenchmark_elastic_666 simbenchmark_666; do
-    awk -v begin="<!-- $block:begin -->" -v end="<!-- $block:end -->" -v file="$made/$block.md" '
-        $0 == end {skip = 0}
-        !skip {print}
-        $0 == begin {while ((getline line < file) > 0) print line; skip = 1}' docs/accuracy.md > "$made/accuracy.md"
-    cp "$made/accuracy.md" docs/accuracy.md
+    scripts/put_block.sh docs/accuracy.md "$block" "$made/$block.md"
 done

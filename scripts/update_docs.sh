@@ -9,12 +9,9 @@ carom=build/release/carom
 $carom still scenes/figure9.yaml --time 0.9 -o docs/figure9.png -y
 
 # The references stand between two markers.
+reference=$(mktemp)
+trap 'rm -f "$reference"' EXIT
 for of in scene:scene sweep:sweeps; do
-    document=docs/${of#*:}
-    $carom schema "${of%:*}" --reference > docs/reference.tmp
-    awk '/<!-- reference:begin -->/ {print; while ((getline line < "docs/reference.tmp") > 0) print line; skip = 1}
-         /<!-- reference:end -->/ {skip = 0}
-         !skip && !/<!-- reference:begin -->/ {print}' "$document.md" > "$document.tmp"
-    mv "$document.tmp" "$document.md"
-    rm docs/reference.tmp
+    $carom schema "${of%:*}" --reference > "$reference"
+    scripts/put_block.sh "docs/${of#*:}.md" reference "$reference"
 done

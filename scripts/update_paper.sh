@@ -18,9 +18,5 @@ done > "$made/verdicts.md"
 
 # Each block stands between two markers.
 for block in table1 table2 errata figure8-rebounds verdicts; do
-    awk -v begin="<!-- $block:begin -->" -v end="<!-- $block:end -->" -v file="$made/$block.md" '
-        $0 == end {skip = 0}
-        !skip {print}
-        $0 == begin {while ((getline line < file) > 0) print line; skip = 1}' docs/paper.md > "$made/paper.md"
-    cp "$made/paper.md" docs/paper.md
+    scripts/put_block.sh docs/paper.md "$block" "$made/$block.md"
 done

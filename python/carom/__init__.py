@@ -9,11 +9,9 @@
 Metres, seconds, radians; z points up. docs/python.md describes all of it.
 """
 
-import json as _json
+# NumPy, whose import takes longer than all else here, and json come when they are first needed.
 import os as _os
-from typing import NamedTuple as _NamedTuple
-
-import numpy as _np
+from collections import namedtuple as _namedtuple
 
 from . import _carom
 from ._carom import Diagnostic, Error, Motion as _Motion, Scene, SceneError, __version__
@@ -24,30 +22,35 @@ __all__ = ["Diagnostic", "Difference", "Error", "Fit", "Motion", "Scene", "Scene
 for _kind in (Diagnostic, Error, Scene, SceneError):
     _kind.__module__ = __name__  # as users name them
 
-EVENT_DTYPE = _np.dtype([
-    ("time", "f8"), ("ball", "i4"), ("other", "i4"), ("other_is_surface", "?"), ("kind", "U8"),
-    ("point", "f8", 3), ("normal", "f8", 3), ("approach_speed", "f8"), ("separation_speed", "f8"),
-    ("restitution", "f8"), ("impulse", "f8"), ("tangential_impulse", "f8")])
+
+def __getattr__(name):
+    if name != "EVENT_DTYPE":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import numpy
+    value = globals()[name] = numpy.dtype([
+        ("time", "f8"), ("ball", "i4"), ("other", "i4"), ("other_is_surface", "?"), ("kind", "U8"),
+        ("point", "f8", 3), ("normal", "f8", 3), ("approach_speed", "f8"), ("separation_speed", "f8"),
+        ("restitution", "f8"), ("impulse", "f8"), ("tangential_impulse", "f8")])
+    return value
 
 
-class States(_NamedTuple):
-    """Of all balls at all times: arrays whose first two axes are times and balls."""
-
-    position: _np.ndarray     # of the centres, m
-    orientation: _np.ndarray  # w, x, y, z: world from ball
-    velocity: _np.ndarray     # m/s
-    spin: _np.ndarray         # rad/s, world axes
+def __dir__():
+    return sorted({*globals(), *__all__})
 
 
-class Difference(_NamedTuple):
+class States(_namedtuple("States", "position orientation velocity spin")):
+    """Of all balls at all times: arrays whose first two axes are times and balls.
+
+    Centres in m; w, x, y, z of the turn to world from ball; m/s; rad/s about world axes.
+    """
+
+    __slots__ = ()
+
+
+class Difference(_namedtuple("Difference", "same_size largest differing_pixels pixels psnr_db ssim")):
     """How far two pictures are apart (docs/commands.md)."""
 
-    same_size: bool
-    largest: float
-    differing_pixels: int
-    pixels: int
-    psnr_db: float
-    ssim: float
+    __slots__ = ()
 
     def same(self, tolerance=2, max_differing=0.01):
         """True where both limits hold, which are those of `carom compare`."""
@@ -55,15 +58,15 @@ class Difference(_NamedTuple):
                 and self.differing_pixels <= max_differing * self.pixels)
 
 
-class Fit(_NamedTuple):
-    """A coefficient of restitution from measurements."""
+class Fit(_namedtuple("Fit", "restitution uncertainty low high distance_per_velocity material")):
+    """A coefficient of restitution from measurements.
 
-    restitution: float
-    uncertainty: "float | None"  # standard
-    low: "float | None"          # of the interval of 95 %
-    high: "float | None"
-    distance_per_velocity: float  # x / v of the virtual body, s
-    material: str                 # YAML to paste into a scene
+    `uncertainty` is the standard one and `low` to `high` the interval of 95 %, None where one
+    measurement says nothing of them; `distance_per_velocity` is x / v of the virtual body in s;
+    `material` is YAML to paste into a scene.
+    """
+
+    __slots__ = ()
 
 
 class Motion:
@@ -79,7 +82,8 @@ class Motion:
 
     def states(self, times):
         """States at an instant, or at an array of them, in seconds."""
-        instants = _np.asarray(times, dtype=float)
+        import numpy as np
+        instants = np.asarray(times, dtype=float)
         rows = self._inner.states(instants.ravel())
         rows = rows.reshape(instants.shape + rows.shape[1:])
         return States(rows[..., 0:3], rows[..., 3:7], rows[..., 7:10], rows[..., 10:13])
@@ -87,9 +91,11 @@ class Motion:
     @property
     def events(self):
         """A structured array (EVENT_DTYPE), by time; `ball` and `other` are indices."""
+        import numpy as np
         columns = self._inner.events()
-        rows = _np.zeros(len(columns["time"]), EVENT_DTYPE)
-        for name in EVENT_DTYPE.names:
+        dtype = __getattr__("EVENT_DTYPE")
+        rows = np.zeros(len(columns["time"]), dtype)
+        for name in dtype.names:
             if len(rows):
                 rows[name] = columns[name]
         return rows
@@ -97,14 +103,16 @@ class Motion:
     def peaks(self, ball):
         """Rows of time [s] and height of the gap [m], of a ball by name or index."""
         index = self.balls.index(ball) if isinstance(ball, str) else ball
-        return _np.array(self._inner.peaks(index), dtype=float).reshape(-1, 2)
+        import numpy as np
+        return np.array(self._inner.peaks(index), dtype=float).reshape(-1, 2)
 
 
 def _setting(value):
     """YAML of a value: a text is YAML already."""
     if isinstance(value, str):
         return value
-    return _json.dumps(value, default=lambda v: v.tolist() if hasattr(v, "tolist") else str(v))
+    import json
+    return json.dumps(value, default=lambda v: v.tolist() if hasattr(v, "tolist") else str(v))
 
 
 def load(path_or_text, set=None):
@@ -143,9 +151,14 @@ def fit(drops=None, rebounds=None, *, intervals=None, constant=4.0, velocity=5.0
         raise TypeError("fit() wants drops and rebounds, or intervals")
     if intervals is not None:
         return Fit(*_carom.fit_intervals(list(intervals), constant, velocity, reading_error))
-    drops = [drops] if _np.ndim(drops) == 0 else list(drops)
-    rebounds = [rebounds] if _np.ndim(rebounds) == 0 else list(rebounds)
-    return Fit(*_carom.fit_drops(drops, rebounds, constant, velocity, reading_error))
+    return Fit(*_carom.fit_drops(_listed(drops), _listed(rebounds), constant, velocity, reading_error))
+
+
+def _listed(values):
+    try:
+        return list(values)
+    except TypeError:  # a number
+        return [values]
 
 
 def read_png(path):
@@ -159,10 +172,11 @@ def write_png(path, picture):
 
 
 def _pixels(picture):
-    array = _np.asarray(picture)
-    if array.dtype != _np.uint8:
+    import numpy as np
+    array = np.asarray(picture)
+    if array.dtype != np.uint8:
         raise TypeError(f"a picture is an array of uint8, not of {array.dtype}")
-    return _np.ascontiguousarray(array)
+    return np.ascontiguousarray(array)
 
 
 def compare(a, b):

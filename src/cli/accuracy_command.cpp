@@ -68,9 +68,7 @@ void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         app.add_subcommand("accuracy", "Measure speed against error of the methods on a scene");
     auto options = std::make_shared<AccuracyCommand>();
     command->footer("  carom accuracy scene.yaml -o out/accuracy --budget 5\n");
-    command->add_option("scene", options->scene, "Scene file, - for standard input")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_argument(*command, options->scene);
     command
         ->add_option("-o,--output", options->folder,
                      "Folder for table, numbers and plots, made if need be")

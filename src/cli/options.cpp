@@ -26,6 +26,12 @@ std::vector<Override> CommonOptions::overrides() const {
     return result;
 }
 
+void add_scene_argument(CLI::App& command, std::string& path) {
+    command.add_option("scene", path, "Scene file, - for standard input")
+        ->required()
+        ->type_name("SCENE");
+}
+
 void add_scene_options(CLI::App& command, CommonOptions& options) {
     command
         .add_option("--set", options.set,

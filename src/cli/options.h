@@ -32,6 +32,7 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::kNone : progress; }
 };
 
+void add_scene_argument(CLI::App& command, std::string& path);         ///< SCENE
 void add_scene_options(CLI::App& command, CommonOptions& options);     ///< --set
 void add_picture_options(CLI::App& command, CommonOptions& options);   ///< --size
 void add_output_options(CLI::App& command, CommonOptions& options);    ///< -y, --stats

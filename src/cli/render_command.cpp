@@ -261,9 +261,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         "  carom render scene.yaml -o - --format mkv | ffplay -\n"
         "  carom render scene.yaml -o film.mp4 -o film.wav\n"
         "  carom render scene.yaml -o film.webm --set background=transparent --quality high\n");
-    command->add_option("scene", options->scene, "Scene file, - for standard input")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_argument(*command, options->scene);
     command
         ->add_option(
             "-o,--output", options->outputs,

@@ -202,9 +202,7 @@ void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         "  carom simulate scene.yaml -o motion.csv --events events.csv\n"
         "  carom simulate scene.yaml -o - --rate 1000 | head\n"
         "  carom simulate scene.yaml -o motion.glb\n");
-    command->add_option("scene", options->scene, "Scene file, - for standard input")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_argument(*command, options->scene);
     command
         ->add_option(
             "-o,--output", options->output,

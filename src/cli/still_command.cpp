@@ -191,9 +191,7 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->footer(
         "  carom still scene.yaml --time 1.2 -o picture.png\n"
         "  carom still scene.yaml --time 2 --strobe 0.1 -o strobe.png\n");
-    command->add_option("scene", options->scene, "Scene file, - for standard input")
-        ->required()
-        ->type_name("SCENE");
+    add_scene_argument(*command, options->scene);
     command
         ->add_option("--time", options->time, "Instant of the motion in seconds, from 0 to its end")
         ->required()

@@ -3,6 +3,11 @@
 
 #include <string>
 
+/// For tables of a library's functions, FUNCTIONS(X) being X(its name) for each: a struct `table`
+/// has the members FUNCTIONS(CAROM_FUNCTION), which FUNCTIONS(CAROM_FIND) fills from `library`.
+#define CAROM_FUNCTION(name) decltype(&::name) name = nullptr;
+#define CAROM_FIND(name) library.find(table.name, #name);
+
 namespace carom {
 
 /// Stays loaded until the process ends: its functions may be called until then.

@@ -15,6 +15,8 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include "core/shared_library.h"
+
 namespace carom {
 
 // clang-format off
@@ -48,12 +50,10 @@ namespace carom {
 
 /// Each function under its own name.
 struct Libav {
-#define CAROM_LIBAV_MEMBER(name) decltype(&::name) name = nullptr;
-    CAROM_AVUTIL_FUNCTIONS(CAROM_LIBAV_MEMBER)
-    CAROM_AVCODEC_FUNCTIONS(CAROM_LIBAV_MEMBER)
-    CAROM_AVFORMAT_FUNCTIONS(CAROM_LIBAV_MEMBER)
-    CAROM_SWSCALE_FUNCTIONS(CAROM_LIBAV_MEMBER)
-#undef CAROM_LIBAV_MEMBER
+    CAROM_AVUTIL_FUNCTIONS(CAROM_FUNCTION)
+    CAROM_AVCODEC_FUNCTIONS(CAROM_FUNCTION)
+    CAROM_AVFORMAT_FUNCTIONS(CAROM_FUNCTION)
+    CAROM_SWSCALE_FUNCTIONS(CAROM_FUNCTION)
 };
 
 /// Loads the libraries at the first call, of the versions that the headers belong to; they stay.

@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include "core/shared_library.h"
-
 namespace carom {
 
 namespace {
@@ -19,9 +17,7 @@ OpenExr load() {
         fmt::format("EXR files need OpenEXR (package libopenexr-{}-{}-{})", OPENEXR_VERSION_MAJOR,
                     OPENEXR_VERSION_MINOR, version.substr(0, version.find('.'))));
     OpenExr table;
-#define CAROM_OPENEXR_FIND(name) library.find(table.name, #name);
-    CAROM_OPENEXR_FUNCTIONS(CAROM_OPENEXR_FIND)
-#undef CAROM_OPENEXR_FIND
+    CAROM_OPENEXR_FUNCTIONS(CAROM_FIND)
     return table;
 }
 

@@ -5,6 +5,8 @@
 #include <OpenEXRConfig.h>
 #include <openexr.h>
 
+#include "core/shared_library.h"
+
 namespace carom {
 
 // clang-format off
@@ -19,9 +21,7 @@ namespace carom {
 
 /// Each function under its own name.
 struct OpenExr {
-#define CAROM_OPENEXR_MEMBER(name) decltype(&::name) name = nullptr;
-    CAROM_OPENEXR_FUNCTIONS(CAROM_OPENEXR_MEMBER)
-#undef CAROM_OPENEXR_MEMBER
+    CAROM_OPENEXR_FUNCTIONS(CAROM_FUNCTION)
 };
 
 /// Loads the library at the first call, of the version that the headers belong to; it stays.

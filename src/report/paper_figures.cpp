@@ -36,6 +36,33 @@ double restitution_with(const VirtualBody& a) {
     return restitution_of_time(contact_time(a, b), kPaperConstant);
 }
 
+struct CurveWords {
+    std::string column, title, unit;  ///< before and after the number
+};
+
+/// Figures 5 and 6: the restitution over one of x and v, a curve for each value of the other one.
+template <class Body>
+Figure restitution_curves(const std::vector<double>& over, const std::string& column,
+                          const std::vector<double>& others, const CurveWords& words,
+                          const Body& body, const std::array<double, 2>& text_at) {
+    Plot plot;
+    plot.y = {.label = "restitution ε", .min = 0, .max = 1};
+    std::vector<std::string> names = {column};
+    std::vector<std::vector<double>> columns = {over};
+    for (const double other : others) {
+        columns.push_back(
+            values(over, [&](double at) { return restitution_with(body(at, other)); }));
+        names.push_back(fmt::format("{}{}", words.column, other));
+        plot.series.push_back({.title = fmt::format("{}{} {}", words.title, other, words.unit),
+                               .x = over,
+                               .y = columns.back()});
+    }
+    plot.texts = {{text_at[0], text_at[1],
+                   fmt::format("x_{{B}} = {} m, v_{{B}} = {} m/s, K = 4 1/s", kFixedDistance_m,
+                               kFixedVelocity_m_s)}};
+    return {plot, number_table(names, columns)};
+}
+
 }  // namespace
 
 Figure figure4() {
@@ -61,46 +88,28 @@ Figure figure4() {
 }
 
 Figure figure5() {
-    constexpr std::array kDistances = {0.1, 0.5, 1.0};  // m
-    const std::vector<double> velocity = steps(0.05, 10, 200);
-    Plot plot;
-    plot.title = "Figure 5: restitution against the virtual velocity v_{A}";
-    plot.x = {.label = "v_{A}, m/s", .min = 0, .max = 10};
-    plot.y = {.label = "restitution ε", .min = 0, .max = 1};
-    plot.legend = Legend::kBottomRight;
-    std::vector<std::string> names = {"velocity_m_s"};
-    std::vector<std::vector<double>> columns = {velocity};
-    for (const double x : kDistances) {
-        columns.push_back(values(velocity, [&](double v) { return restitution_with({x, v}); }));
-        names.push_back(fmt::format("restitution_x{}", x));
-        plot.series.push_back(
-            {.title = fmt::format("x_{{A}} = {} m", x), .x = velocity, .y = columns.back()});
-    }
-    plot.texts = {{5.6, 0.42,
-                   fmt::format("x_{{B}} = {} m, v_{{B}} = {} m/s, K = 4 1/s", kFixedDistance_m,
-                               kFixedVelocity_m_s)}};
-    return {plot, number_table(names, columns)};
+    Figure figure = restitution_curves(steps(0.05, 10, 200), "velocity_m_s", {0.1, 0.5, 1.0},
+                                       {"restitution_x", "x_{A} = ", "m"},
+                                       [](double v, double x) {
+                                           return VirtualBody{x, v};
+                                       },
+                                       {5.6, 0.42});
+    figure.plot.title = "Figure 5: restitution against the virtual velocity v_{A}";
+    figure.plot.x = {.label = "v_{A}, m/s", .min = 0, .max = 10};
+    figure.plot.legend = Legend::kBottomRight;
+    return figure;
 }
 
 Figure figure6() {
-    constexpr std::array kVelocities = {5.0, 2.0, 1.0};  // m/s
-    const std::vector<double> distance = steps(0, 2);
-    Plot plot;
-    plot.title = "Figure 6: restitution against the virtual distance x_{A}";
-    plot.x = {.label = "x_{A}, m", .min = 0, .max = 2};
-    plot.y = {.label = "restitution ε", .min = 0, .max = 1};
-    std::vector<std::string> names = {"distance_m"};
-    std::vector<std::vector<double>> columns = {distance};
-    for (const double v : kVelocities) {
-        columns.push_back(values(distance, [&](double x) { return restitution_with({x, v}); }));
-        names.push_back(fmt::format("restitution_v{}", v));
-        plot.series.push_back(
-            {.title = fmt::format("v_{{A}} = {} m/s", v), .x = distance, .y = columns.back()});
-    }
-    plot.texts = {{1.12, 0.68,
-                   fmt::format("x_{{B}} = {} m, v_{{B}} = {} m/s, K = 4 1/s", kFixedDistance_m,
-                               kFixedVelocity_m_s)}};
-    return {plot, number_table(names, columns)};
+    Figure figure = restitution_curves(steps(0, 2), "distance_m", {5.0, 2.0, 1.0},
+                                       {"restitution_v", "v_{A} = ", "m/s"},
+                                       [](double x, double v) {
+                                           return VirtualBody{x, v};
+                                       },
+                                       {1.12, 0.68});
+    figure.plot.title = "Figure 6: restitution against the virtual distance x_{A}";
+    figure.plot.x = {.label = "x_{A}, m", .min = 0, .max = 2};
+    return figure;
 }
 
 Figure figure7() {

@@ -110,6 +110,9 @@ constexpr Range above_up_to(double min, double max) {
     return {.min = min, .max = max, .above_min = true};
 }
 constexpr Range between(double min, double max) { return {.min = min, .max = max}; }
+/// Keeps every later sum and square finite, and cells of the search for overlaps countable.
+inline constexpr Range kCoordinate = between(-1e9, 1e9);
+inline constexpr Range kLength = above_up_to(0, 1e9);
 
 /// What the reader takes where a key is left out.
 struct Fallback {

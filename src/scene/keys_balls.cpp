@@ -5,7 +5,6 @@ namespace carom {
 
 namespace {
 
-constexpr Range kCoordinate = between(-1e9, 1e9);  ///< as in keys_setup.cpp
 /// A cell of the search for overlaps is as wide as the smallest ball; this keeps them countable.
 constexpr Range kRadius = between(1e-9, 1e9);
 

@@ -5,9 +5,53 @@ namespace carom {
 
 namespace {
 
-constexpr Range kCoordinate = between(-1e9, 1e9);  ///< as in keys_setup.cpp
 constexpr Range kCoefficient = between(0, 1e6);
 constexpr Range kSpeed = between(0, 1e9);
+
+// What a material says of itself and a pair may say of two.
+KeySpec restitution(Section section, std::string_view fallback, std::string_view doc,
+                    std::string_view example) {
+    return {.section = section,
+            .key = "restitution",
+            .forms = form::kNumber | form::kMap,
+            .child = Section::kRestitution,
+            .range = between(0, 1),
+            .fallback_doc = fallback,
+            .doc = doc,
+            .example = example};
+}
+
+KeySpec coefficient(Section section, std::string_view key, std::string_view fallback,
+                    std::string_view doc, std::string_view example) {
+    return {.section = section,
+            .key = key,
+            .forms = form::kNumber,
+            .range = kCoefficient,
+            .fallback_doc = fallback,
+            .doc = doc,
+            .example = example};
+}
+
+KeySpec pivoting(Section section, std::string_view fallback, std::string_view doc) {
+    return {.section = section,
+            .key = "pivoting",
+            .forms = form::kNumber,
+            .range = between(0, 1e9),
+            .unit = "m",
+            .fallback_doc = fallback,
+            .doc = doc,
+            .example = "0.0005"};
+}
+
+KeySpec tangential(Section section, std::string_view fallback, std::string_view doc) {
+    return {.section = section,
+            .key = "tangential_restitution",
+            .forms = form::kNumber,
+            .range = between(-1, 1),
+            .fallback_doc = fallback,
+            .doc = doc,
+            .example = "0.2"};
+}
 
 }  // namespace
 
@@ -15,15 +59,11 @@ std::vector<KeySpec> material_keys() {
     using enum Section;
     using namespace form;
     return {
-        {.section = kMaterial,
-         .key = "restitution",
-         .forms = kNumber | kMap,
-         .child = kRestitution,
-         .range = between(0, 1),
-         .fallback_doc = "1",
-         .doc = "Coefficient against a rigid body: separation speed over approach speed; a number, "
-                "or how it depends on the approach speed.",
-         .example = "0.85"},
+        restitution(
+            kMaterial, "1",
+            "Coefficient against a rigid body: separation speed over approach speed; a number, "
+            "or how it depends on the approach speed.",
+            "0.85"),
         {.section = kMaterial,
          .key = "virtual_body",
          .forms = kMap,
@@ -31,38 +71,19 @@ std::vector<KeySpec> material_keys() {
          .fallback_doc = "none",
          .doc = "The paper's x and v instead of a coefficient.",
          .example = "{distance: 0.42, velocity: 5.0}"},
-        {.section = kMaterial,
-         .key = "friction",
-         .forms = kNumber,
-         .range = kCoefficient,
-         .fallback_doc = "none, which counts as 0",
-         .doc = "Coulomb's coefficient against a reference of 1.",
-         .example = "0.6"},
-        {.section = kMaterial,
-         .key = "rolling",
-         .forms = kNumber,
-         .range = kCoefficient,
-         .fallback_doc = "none, which counts as 0",
-         .doc =
-             "Rolling resistance against a reference of 1: a ball that rolls slows by this times "
-             "N/m. It needs friction.",
-         .example = "0.01"},
-        {.section = kMaterial,
-         .key = "pivoting",
-         .forms = kNumber,
-         .range = between(0, 1e9),
-         .unit = "m",
-         .fallback_doc = "0",
-         .doc = "Moment against spin about the normal, over the normal force; those of a pair add.",
-         .example = "0.0005"},
-        {.section = kMaterial,
-         .key = "tangential_restitution",
-         .forms = kNumber,
-         .range = between(-1, 1),
-         .fallback_doc = "none",
-         .doc = "After an impact that grips, the slip is minus this times that before. It needs "
-                "friction.",
-         .example = "0.2"},
+        coefficient(kMaterial, "friction", "none, which counts as 0",
+                    "Coulomb's coefficient against a reference of 1.", "0.6"),
+        coefficient(
+            kMaterial, "rolling", "none, which counts as 0",
+            "Rolling resistance against a reference of 1: a ball that rolls slows by this times "
+            "N/m. It needs friction.",
+            "0.01"),
+        pivoting(
+            kMaterial, "0",
+            "Moment against spin about the normal, over the normal force; those of a pair add."),
+        tangential(kMaterial, "none",
+                   "After an impact that grips, the slip is minus this times that before. It needs "
+                   "friction."),
 
         {.section = kRestitution,
          .key = "speed",
@@ -149,43 +170,12 @@ std::vector<KeySpec> material_keys() {
          .required = true,
          .doc = "The two materials; they may be the same.",
          .example = "[rubber, steel]"},
-        {.section = kPair,
-         .key = "restitution",
-         .forms = kNumber | kMap,
-         .child = kRestitution,
-         .range = between(0, 1),
-         .fallback_doc = "the product",
-         .doc = "Coefficient of the pair.",
-         .example = "0.8"},
-        {.section = kPair,
-         .key = "friction",
-         .forms = kNumber,
-         .range = kCoefficient,
-         .fallback_doc = "the product",
-         .doc = "Coulomb's coefficient of the pair.",
-         .example = "0.5"},
-        {.section = kPair,
-         .key = "rolling",
-         .forms = kNumber,
-         .range = kCoefficient,
-         .fallback_doc = "the product",
-         .doc = "Rolling resistance of the pair.",
-         .example = "0.01"},
-        {.section = kPair,
-         .key = "pivoting",
-         .forms = kNumber,
-         .range = between(0, 1e9),
-         .unit = "m",
-         .fallback_doc = "the sum",
-         .doc = "Resistance against spin about the normal.",
-         .example = "0.0005"},
-        {.section = kPair,
-         .key = "tangential_restitution",
-         .forms = kNumber,
-         .range = between(-1, 1),
-         .fallback_doc = "the product of those that are named",
-         .doc = "Tangential restitution of the pair.",
-         .example = "0.2"},
+        restitution(kPair, "the product", "Coefficient of the pair.", "0.8"),
+        coefficient(kPair, "friction", "the product", "Coulomb's coefficient of the pair.", "0.5"),
+        coefficient(kPair, "rolling", "the product", "Rolling resistance of the pair.", "0.01"),
+        pivoting(kPair, "the sum", "Resistance against spin about the normal."),
+        tangential(kPair, "the product of those that are named",
+                   "Tangential restitution of the pair."),
     };
 }
 

@@ -5,8 +5,6 @@ namespace carom {
 
 namespace {
 
-/// Keeps every later sum and square finite, and cells of the search for overlaps countable.
-constexpr Range kCoordinate = between(-1e9, 1e9);
 constexpr double kMaxSidePx = 16384;  ///< libx264's limit
 constexpr double kLongest = 1e7;      ///< s, a third of a year
 

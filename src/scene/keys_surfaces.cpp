@@ -4,12 +4,6 @@
 
 namespace carom {
 
-namespace {
-
-constexpr Range kLength = above_up_to(0, 1e9);
-
-}  // namespace
-
 std::vector<KeySpec> surface_keys() {
     using enum Section;
     using namespace form;

@@ -54,6 +54,20 @@ class Module(unittest.TestCase):
             with self.assertRaisesRegex(carom.Error, "no instant"):
                 self.motion.states(wrong)
 
+    def test_numpy_is_loaded_with_the_first_array(self):
+        script = ("import sys, carom\n"
+                  "motion = carom.simulate(carom.load(sys.argv[1], set={'balls.a.position': '[0, 0, 0.7]'}))\n"
+                  "print('numpy' in sys.modules)\nmotion.states(0.1)\nprint('numpy' in sys.modules)\n"
+                  "from carom import *\nprint(EVENT_DTYPE.names[0], 'EVENT_DTYPE' in dir(carom))\n")
+        self.assertEqual("False\nTrue\ntime True\n", subprocess.run(
+            [sys.executable, "-c", script, TEXT], check=True, capture_output=True, text=True).stdout)
+        with self.assertRaisesRegex(AttributeError, "no attribute 'stil'"):
+            carom.stil
+
+    def test_fits_of_numbers_and_of_lists(self):
+        for drops, rebounds in ((1.8, 1.3), ([1.8], [1.3]), (np.array(1.8), np.array([1.3])), ((1.8,), iter([1.3]))):
+            self.assertAlmostEqual((1.3 / 1.8) ** 0.5, carom.fit(drops, rebounds).restitution, places=3)
+
     def test_arrays_outlive_the_motion(self):
         states = carom.simulate(self.scene).states([0, 0.1]).position
         np.testing.assert_allclose(states[:, 0, 2], [0.6, 0.6 - 0.04905])

@@ -39,12 +39,6 @@ TEST(AlphaEncoding, IsWhatLightWouldShowOverWhiteAndBlack) {
     const int over_white = edge.bgra[0] + 255 - edge.bgra[3];
     EXPECT_NEAR(encoded_of(part * grey + 1 - part), over_white, 1);
     EXPECT_EQ(encoded_of(part * grey), edge.bgra[0]) << "over black";
-    // What is opaque, or not there, stays.
-    Image ends(2, 1);
-    ends.bgra = {10, 20, 30, 255, 0, 0, 0, 0};
-    const Image before = ends;
-    encode_alpha(ends);
-    EXPECT_EQ(before, ends);
 }
 
 TEST(Transparent, NothingButTheBallAndItsShadow) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "exact_scenes.h"
+#include "shapes.h"
 #include "sim/nearby_origin.h"
 
 namespace carom::testing {
@@ -35,14 +36,6 @@ Scene moved(const Scene& scene, const Vec3& by) {
     for (Surface& s : other.surfaces) s.shape = moved(s.shape, by);
     for (Ball& b : other.balls) b.position += by;
     return other;
-}
-
-void add_shape(Scene& scene, const SurfaceShape& shape) {
-    Surface surface;
-    surface.name = "surface" + std::to_string(scene.surfaces.size());
-    surface.shape = shape;
-    surface.material = 2;
-    scene.surfaces.push_back(surface);
 }
 
 // ---- The origin nearby

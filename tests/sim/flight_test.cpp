@@ -116,22 +116,23 @@ TEST(Flight, ThrowWithDrag) {
     EXPECT_NEAR(down.velocity.norm(), 16.25323269208484, 1e-10);
 }
 
-TEST(Flight, ConstantLiftTurnsOnACircle) {
+/// After a second without gravity, thrown along x with spin about z.
+BallState turned(const Lift& lift, double spin) {
     Scene scene = thrown(Vec3(30, 0, 0), 0.507);
     scene.simulation.gravity.setZero();
-    scene.balls[0].flight.lift = {Lift::Over::kNothing, 0.2, nullptr};
-    scene.balls[0].spin = Vec3(0, 0, 200);
-    const BallState s = run(scene, 1).motion.balls[0].at(1);
+    scene.balls[0].flight.lift = lift;
+    scene.balls[0].spin = Vec3(0, 0, spin);
+    return run(scene, 1).motion.balls[0].at(1);
+}
+
+TEST(Flight, ConstantLiftTurnsOnACircle) {
+    const BallState s = turned({Lift::Over::kNothing, 0.2, nullptr}, 200);
     EXPECT_NEAR(s.position.x(), 23.62297416755737, 1e-10);
     EXPECT_NEAR(s.position.y(), 2.104723378711842, 1e-10);  // w x u: to the left
 }
 
 TEST(Flight, LiftByTheSpinRatioTurnsOnASpiral) {
-    Scene scene = thrown(Vec3(30, 0, 0), 0.507);
-    scene.simulation.gravity.setZero();
-    scene.balls[0].flight.lift = {Lift::Over::kSpinRatio, 0, nullptr};
-    scene.balls[0].spin = Vec3(0, 0, 300);
-    const BallState s = run(scene, 1).motion.balls[0].at(1);
+    const BallState s = turned({Lift::Over::kSpinRatio, 0, nullptr}, 300);
     EXPECT_NEAR(s.position.x(), 23.25248182373246, 1e-10);
     EXPECT_NEAR(s.position.y(), 4.085113995239079, 1e-10);
 }

@@ -8,35 +8,13 @@
 #include <cstdio>
 
 #include "curved_scenes.h"
+#include "slip_reference.h"
 
 namespace carom::testing {
 namespace {
 
 // ---- Slip that turns
 // ------------------------------------------------------------------------------
-
-// Slip across a slope: ds/dt = g_t - mu g_n (1 + 1/k) s/|s|, dv/dt = g_t - mu g_n s/|s|, integrated
-// by the classical Runge-Kutta method with steps of 1e-5 s.
-struct Slip {
-    Vec3 slip, velocity, position;
-};
-Slip slip_reference(const Vec3& g_t, double grip, double k, Slip now, double seconds) {
-    const auto rate = [&](const Slip& s) {
-        const Vec3 friction = -grip * s.slip.normalized();
-        return Slip{g_t + (1 + 1 / k) * friction, g_t + friction, s.velocity};
-    };
-    const auto ahead = [](const Slip& s, const Slip& d, double h) {
-        return Slip{s.slip + h * d.slip, s.velocity + h * d.velocity, s.position + h * d.position};
-    };
-    const int steps = static_cast<int>(std::lround(seconds / 1e-5));
-    const double h = seconds / steps;
-    for (int i = 0; i < steps; ++i) {
-        const Slip a = rate(now), b = rate(ahead(now, a, h / 2)), c = rate(ahead(now, b, h / 2)),
-                   d = rate(ahead(now, c, h));
-        now = ahead(ahead(ahead(ahead(now, a, h / 6), b, h / 3), c, h / 3), d, h / 6);
-    }
-    return now;
-}
 
 TEST(SingleContact, SlipAcrossSlopeTurns) {  // H28
     for (const double k : {kSolid, kShell}) {

@@ -11,6 +11,7 @@
 
 #include "exact_scenes.h"
 #include "geometry/nearest.h"
+#include "shapes.h"
 #include "sim/exact/exact.h"
 
 namespace carom::testing {
@@ -41,14 +42,6 @@ SurfaceShape random_shape(Random& random, const Vec3& center, double size, int k
     if (kind % 3 == 1) return SphereShape{center, size * random.in(0.1, 0.5)};
     const Vec3 half = random.vector(0.5 * size);
     return CapsuleShape{center - half, center + half, size * random.in(0.05, 0.2)};
-}
-
-void add_shape(Scene& scene, const SurfaceShape& shape) {
-    Surface surface;
-    surface.name = "surface" + std::to_string(scene.surfaces.size());
-    surface.shape = shape;
-    surface.material = 2;
-    scene.surfaces.push_back(surface);
 }
 
 TEST(SurfaceTree, FindsEverySurfaceThatAPathComesNearTo) {

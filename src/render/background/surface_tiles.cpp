@@ -1,14 +1,13 @@
 #include "render/background/surface_tiles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "render/background/plane_tiles.h"
 #include "render/background/surface_bounds.h"
+#include "render/background/surface_rectangles.h"
 #include "render/tile/screen_tiles.h"
 #include "render/view/view_space.h"
 
@@ -43,8 +42,7 @@ class Sorter {
     SurfaceTiles sorted();
 
   private:
-    /// One bit for each body, in the table's order.
-    using Set = std::vector<bool>;
+    using Set = SurfaceSet;
 
     template <class Mark>
     void mark(const std::vector<Vec3>& points, const Mark& at_tile) const {
@@ -63,9 +61,6 @@ class Sorter {
     bool may_shade(const SurfaceBound& caster, const SurfaceBound& receiver) const;
     double edge_reach(const SurfaceBound& body) const;
     double blur(double distance, const Flat& flat) const;
-    void join_rectangles(SurfaceTiles& tiles);
-    std::array<float, 4> range_of(const Set& set, SurfaceTiles& tiles);
-    std::array<float, 4> planes_of(std::size_t tile, SurfaceTiles& tiles);
 
     const SurfaceTable& table_;
     ScreenTiles grid_;
@@ -78,9 +73,7 @@ class Sorter {
     std::vector<Set> seen_, shading_;  ///< per tile
     std::vector<int> stamps_;          ///< per tile
     int stamp_ = 0;
-    std::map<Set, std::array<float, 4>> ranges_;
     std::optional<PlaneTiles> planes_;  ///< where they are many
-    std::map<std::vector<int>, std::array<float, 2>> plane_ranges_;
 };
 
 Sorter::Sorter(const SurfaceTable& table, const View& view, const Lights& lights,
@@ -312,100 +305,6 @@ void Sorter::mark_mirrors() {
     }
 }
 
-/// Where the set stands among the entries; written there if it is new.
-std::array<float, 4> Sorter::range_of(const Set& set, SurfaceTiles& tiles) {
-    const auto [found, is_new] = ranges_.try_emplace(set);
-    if (!is_new) return found->second;
-    const std::array<int, 3> kinds = {table_.boxes, table_.spheres, table_.others};
-    const auto filled = [&tiles] {
-        const std::size_t vec4s = tiles.entries.size() / 4;
-        return static_cast<float>(vec4s);
-    };
-    found->second[0] = filled();
-    std::size_t body = 0;
-    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-        for (int i = 0; i < kinds[kind]; ++i, ++body) {
-            if (!set[body]) continue;
-            tiles.entries.push_back(
-                static_cast<float>(body + static_cast<std::size_t>(table_.planes)));
-            tiles.entries.insert(tiles.entries.end(), 3, 0.0F);
-        }
-        found->second[kind + 1] = filled();
-    }
-    return found->second;
-}
-
-/// Of either list of planes, where it begins and ends among the entries.
-std::array<float, 4> Sorter::planes_of(std::size_t tile, SurfaceTiles& tiles) {
-    std::array<float, 4> ranges{};
-    if (!planes_) return ranges;
-    const auto place = [&](const std::vector<int>& planes, std::size_t at) {
-        const auto [found, is_new] = plane_ranges_.try_emplace(planes);
-        if (is_new) {
-            found->second[0] = static_cast<float>(tiles.entries.size() / 4);
-            for (const int plane : planes)
-                tiles.entries.insert(tiles.entries.end(), {static_cast<float>(plane), 0, 0, 0});
-            found->second[1] = static_cast<float>(tiles.entries.size() / 4);
-        }
-        ranges[at] = found->second[0];
-        ranges[at + 1] = found->second[1];
-    };
-    place(planes_->seen[tile], 0);
-    place(planes_->shading[tile], 2);
-    return ranges;
-}
-
-/// Neighbouring tiles with the same lists become one rectangle: along a row, then downwards.
-void Sorter::join_rectangles(SurfaceTiles& tiles) {
-    struct Run {
-        int first_column, last_column, row;
-        std::array<float, 4> seen, shading, planes;
-        bool same_lists(const Run& o) const {
-            return seen == o.seen && shading == o.shading && planes == o.planes;
-        }
-        bool same(const Run& o) const {
-            return first_column == o.first_column && last_column == o.last_column && same_lists(o);
-        }
-    };
-    std::vector<Run> open;
-    const auto close = [&](const Run& run, int end_row) {
-        constexpr int kTilePx = ScreenTiles::kTilePx;
-        for (const int px : {run.first_column * kTilePx, run.row * kTilePx,
-                             std::min(width_px_, (run.last_column + 1) * kTilePx),
-                             std::min(height_px_, end_row * kTilePx)})
-            tiles.rectangles.push_back(static_cast<float>(px));
-        tiles.rectangles.insert(tiles.rectangles.end(), run.seen.begin(), run.seen.end());
-        tiles.rectangles.insert(tiles.rectangles.end(), run.shading.begin(), run.shading.end());
-        tiles.rectangles.insert(tiles.rectangles.end(), run.planes.begin(), run.planes.end());
-    };
-    for (int row = 0; row < grid_.rows(); ++row) {
-        std::vector<Run> runs;
-        for (int column = 0; column < grid_.columns(); ++column) {
-            const std::size_t tile = grid_.index(column, row);
-            const Run run{column,
-                          column,
-                          row,
-                          range_of(seen_[tile], tiles),
-                          range_of(shading_[tile], tiles),
-                          planes_of(tile, tiles)};
-            if (!runs.empty() && runs.back().same_lists(run))
-                runs.back().last_column = column;
-            else
-                runs.push_back(run);
-        }
-        for (const Run& above : open) {
-            const auto below = std::find_if(runs.begin(), runs.end(),
-                                            [&](const Run& run) { return run.same(above); });
-            if (below != runs.end())
-                below->row = above.row;
-            else
-                close(above, row);
-        }
-        open = std::move(runs);
-    }
-    for (const Run& run : open) close(run, grid_.rows());
-}
-
 SurfaceTiles Sorter::sorted() {
     for (std::size_t body = 0; body < bodies_.size(); ++body) {
         mark_seen(body);
@@ -415,10 +314,8 @@ SurfaceTiles Sorter::sorted() {
         for (const Flat& flat : flats_) mark_shading(body, flat);
     mark_on_round_bodies();
     if (table_.reflection) mark_mirrors();
-    SurfaceTiles tiles;
-    join_rectangles(tiles);
-    tiles.entries.insert(tiles.entries.end(), 4, 0.0F);
-    return tiles;
+    return joined_rectangles(table_, grid_, {width_px_, height_px_}, seen_, shading_,
+                             planes_ ? &*planes_ : nullptr);
 }
 
 }  // namespace

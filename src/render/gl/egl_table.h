@@ -7,6 +7,8 @@
 
 #include <string>
 
+#include "core/shared_library.h"
+
 namespace carom {
 
 // clang-format off
@@ -19,9 +21,7 @@ namespace carom {
 
 /// Each function under its own name.
 struct Egl {
-#define CAROM_EGL_MEMBER(name) decltype(&::name) name = nullptr;
-    CAROM_EGL_FUNCTIONS(CAROM_EGL_MEMBER)
-#undef CAROM_EGL_MEMBER
+    CAROM_EGL_FUNCTIONS(CAROM_FUNCTION)
     std::string folder;  ///< of the library
 };
 

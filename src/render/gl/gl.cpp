@@ -75,27 +75,6 @@ void Gl::check(const std::string& attempted) const {
                                                      attempted, error_name(error), error));
 }
 
-GLuint GlBufferTraits::make(const Gl& gl) {
-    GLuint name = 0;
-    gl.GenBuffers(1, &name);
-    return name;
-}
-GLuint GlTextureTraits::make(const Gl& gl) {
-    GLuint name = 0;
-    gl.GenTextures(1, &name);
-    return name;
-}
-GLuint GlFramebufferTraits::make(const Gl& gl) {
-    GLuint name = 0;
-    gl.GenFramebuffers(1, &name);
-    return name;
-}
-GLuint GlVertexArrayTraits::make(const Gl& gl) {
-    GLuint name = 0;
-    gl.GenVertexArrays(1, &name);
-    return name;
-}
-
 GlTexture make_texture(const Gl& gl, GLint internal_format, int width, int height, GLenum format,
                        GLenum type, const void* pixels) {
     GlTexture texture(gl);

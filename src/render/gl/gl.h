@@ -78,12 +78,12 @@ struct Gl {
     void check(const std::string& attempted) const;
 };
 
-/// Owns one GL name; `Traits` knows how to make and delete it.
-template <class Traits>
+/// Owns one GL name, made and deleted by these entry points.
+template <auto kGenerate, auto kDelete>
 class GlObject {
   public:
     GlObject() = default;
-    explicit GlObject(const Gl& gl) : gl_(&gl), name_(Traits::make(gl)) {}
+    explicit GlObject(const Gl& gl) : gl_(&gl) { (gl.*kGenerate)(1, &name_); }
     ~GlObject() { reset(); }
     GlObject(GlObject&& other) noexcept : gl_(other.gl_), name_(other.name_) { other.name_ = 0; }
     GlObject& operator=(GlObject&& other) noexcept {
@@ -101,34 +101,17 @@ class GlObject {
 
   private:
     void reset() {
-        if (name_ != 0) Traits::destroy(*gl_, name_);
+        if (name_ != 0) (gl_->*kDelete)(1, &name_);
         name_ = 0;
     }
     const Gl* gl_ = nullptr;
     GLuint name_ = 0;
 };
 
-struct GlBufferTraits {
-    static GLuint make(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name) { gl.DeleteBuffers(1, &name); }
-};
-struct GlTextureTraits {
-    static GLuint make(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name) { gl.DeleteTextures(1, &name); }
-};
-struct GlFramebufferTraits {
-    static GLuint make(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name) { gl.DeleteFramebuffers(1, &name); }
-};
-struct GlVertexArrayTraits {
-    static GLuint make(const Gl& gl);
-    static void destroy(const Gl& gl, GLuint name) { gl.DeleteVertexArrays(1, &name); }
-};
-
-using GlBuffer = GlObject<GlBufferTraits>;
-using GlTexture = GlObject<GlTextureTraits>;
-using GlFramebuffer = GlObject<GlFramebufferTraits>;
-using GlVertexArray = GlObject<GlVertexArrayTraits>;
+using GlBuffer = GlObject<&Gl::GenBuffers, &Gl::DeleteBuffers>;
+using GlTexture = GlObject<&Gl::GenTextures, &Gl::DeleteTextures>;
+using GlFramebuffer = GlObject<&Gl::GenFramebuffers, &Gl::DeleteFramebuffers>;
+using GlVertexArray = GlObject<&Gl::GenVertexArrays, &Gl::DeleteVertexArrays>;
 
 /// A 2-D texture without mipmaps, nearest filtering, clamped; `format` and `type` describe `pixels`
 /// (null: contents undefined).

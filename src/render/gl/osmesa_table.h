@@ -4,6 +4,8 @@
 
 #include <GL/osmesa.h>
 
+#include "core/shared_library.h"
+
 namespace carom {
 
 /// Every function that carom calls: X(its name).
@@ -13,9 +15,7 @@ namespace carom {
 
 /// Each function under its own name.
 struct OsMesa {
-#define CAROM_OSMESA_MEMBER(name) decltype(&::name) name = nullptr;
-    CAROM_OSMESA_FUNCTIONS(CAROM_OSMESA_MEMBER)
-#undef CAROM_OSMESA_MEMBER
+    CAROM_OSMESA_FUNCTIONS(CAROM_FUNCTION)
 };
 
 /// Loads the library at the first call; it stays. Failure(kRun) with the loader's own text if it is

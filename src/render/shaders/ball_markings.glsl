@@ -201,44 +201,29 @@ flat in float v_style;  // the number of a LookStyle (scene/scene.h)
 #define HAS_STYLE(number) true
 #endif
 
+#define MARK(number, drawn, shine) if (HAS_STYLE(number)) { gloss = shine; color = drawn(p, px, py); }
+
 // The colour at p; `gloss` is exponent and strength of the highlight.
 vec3 marking(vec3 p, vec3 px, vec3 py, out vec2 gloss) {
     gloss = vec2(48.0, 0.10);
     vec3 color = v_color;
 #ifdef STRIPED
-    if (HAS_STYLE(1)) {
-        color = striped(p, px, py);
-    }
+    MARK(1, striped, vec2(48.0, 0.10))
 #endif
 #ifdef BASKETBALL
-    if (HAS_STYLE(2)) {
-        gloss = vec2(14.0, 0.05);
-        color = basketball(p, px, py);
-    }
+    MARK(2, basketball, vec2(14.0, 0.05))
 #endif
 #ifdef VOLLEYBALL
-    if (HAS_STYLE(3)) {
-        gloss = vec2(24.0, 0.06);
-        color = volleyball(p, px, py);
-    }
+    MARK(3, volleyball, vec2(24.0, 0.06))
 #endif
 #ifdef FOOTBALL
-    if (HAS_STYLE(4)) {
-        gloss = vec2(32.0, 0.08);
-        color = football(p, px, py);
-    }
+    MARK(4, football, vec2(32.0, 0.08))
 #endif
 #ifdef TENNIS
-    if (HAS_STYLE(5)) {
-        gloss = vec2(4.0, 0.0);
-        color = tennis(p, px, py);
-    }
+    MARK(5, tennis, vec2(4.0, 0.0))
 #endif
 #ifdef TABLE_TENNIS
-    if (HAS_STYLE(6)) {
-        gloss = vec2(36.0, 0.08);
-        color = table_tennis(p, px, py);
-    }
+    MARK(6, table_tennis, vec2(36.0, 0.08))
 #endif
     return color;
 }
