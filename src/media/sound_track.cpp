@@ -54,7 +54,7 @@ ParametersPtr SoundTrack::parameters() const {
 }
 
 void SoundTrack::write_until(double s, FilmMuxer& muxer) {
-    write_before(static_cast<std::int64_t>(std::ceil(s * kSoundRate)), false, muxer);
+    write_before(static_cast<std::int64_t>(s * kSoundRate), false, muxer);
 }
 
 void SoundTrack::write_rest(std::int64_t frames, FilmMuxer& muxer) {
@@ -66,7 +66,8 @@ void SoundTrack::write_before(std::int64_t sample, bool is_end, FilmMuxer& muxer
     for (; next_packet_ < packets; ++next_packet_) {
         const std::int64_t begin =
             next_packet_ * codec_.packet_samples - codec_.delay - first_sample_;
-        if (begin >= sample) return;
+        // What reaches beyond may be the last, whose length the film's end decides.
+        if (begin >= sample || (!is_end && begin + codec_.packet_samples > sample)) return;
         AVPacket& packet = *sound_.packets[static_cast<std::size_t>(next_packet_)];
         packet.pts = packet.dts = begin;
         packet.duration = codec_.packet_samples;

@@ -37,7 +37,7 @@ class SoundTrack {
     SoundTrack(const std::string& path, const SoundCodec& codec, const FilmOptions& options);
 
     ParametersPtr parameters() const;
-    /// What begins before this time of the film [s].
+    /// What is over at this time of the film [s], which is not beyond its end.
     void write_until(double s, FilmMuxer& muxer);
     /// The rest of a film of so many frames.
     void write_rest(std::int64_t frames, FilmMuxer& muxer);

@@ -90,6 +90,11 @@ class FilmSound(ProgramTest):
             self.assertAlmostEqual(2.0, float(stream["duration"]), delta=1e-4)
             self.assertAlmostEqual(0.0, float(stream["start_time"]), delta=1e-9)
 
+    def test_a_packet_of_sound_beyond_many_short_frames_ends_with_them(self):
+        words = ["--fps", "1000", "--frames", "0-499"]
+        for stream in probe(self.film("film.mp4", *words))["streams"]:
+            self.assertAlmostEqual(0.5, float(stream["duration"]), delta=1e-4)
+
     def test_slow_motion_that_starts_later(self):
         words = ["--set", "film.speed=0.5", "--set", "film.start=0.4"]
         wanted = self.wav(*words)
