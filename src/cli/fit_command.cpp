@@ -149,6 +149,9 @@ std::string drag_fit(const FitCommandOptions& options, const Measurements& measu
         usage(
             "--fit-drag needs the times between many bounces: --intervals, --wav, or a --csv of "
             "them; a drop's two heights do not tell drag and restitution apart");
+    if (options.rebound_to == "top" || !options.diameter.empty())
+        usage(
+            "--rebound-to top and --diameter are about heights, not about --fit-drag's intervals");
     if (!options.plot.empty()) usage("-o: --fit-drag has no plot");
     const FlyingBall ball = flying_ball(options);
     if (!(ball.radius > 0 && ball.mass > 0))
