@@ -88,10 +88,10 @@ void check_axes(const Sweep& sweep, Diagnostics& diagnostics) {
 
 void check_names_of_results(const Sweep& sweep, const Scene& base, const Node& root,
                             const std::string& path, Diagnostics& diagnostics) {
-    std::vector<std::string> names, prefixes;
-    for (const Ball& ball : base.balls) names.push_back(ball.name);
-    for (const Surface& surface : base.surfaces) names.push_back(surface.name);
-    for (const RandomBalls& group : sweep.balls) prefixes.push_back(group.name + "_");
+    ResultNames known;
+    for (const Ball& ball : base.balls) known.balls.push_back(ball.name);
+    for (const Surface& surface : base.surfaces) known.surfaces.push_back(surface.name);
+    for (const RandomBalls& group : sweep.balls) known.drawn.push_back(group.name + "_");
     const Node* results = root.find("results");
     if (results == nullptr) return;
     for (const Node& one : results->children) {
@@ -100,7 +100,7 @@ void check_names_of_results(const Sweep& sweep, const Scene& base, const Node& r
                 diagnostics.add(
                     {Severity::kError, path, one.key_mark,
                      fmt::format("'{}' is a column already; name it otherwise", column)});
-        const std::string wrong = wrong_expression(one.text, names, prefixes);
+        const std::string wrong = wrong_expression(one.text, known);
         if (!wrong.empty()) diagnostics.add({Severity::kError, path, one.mark, wrong});
     }
 }

@@ -63,9 +63,9 @@ TEST(Results, OfEachFunctionInTheDocumentsCanBeEvaluated) {
     ASSERT_GT(specs.size(), 15U);
     EXPECT_EQ(results_of(specs).size(), specs.size());
     for (const ResultSpec& spec : specs)
-        EXPECT_EQ(wrong_expression(spec.expression, {"a"}, {}), "") << spec.expression;
-    EXPECT_NE(wrong_expression("peek(\"a\", 1)", {"a"}, {}), "");
-    EXPECT_NE(wrong_expression("peak(\"b\", 1)", {"a"}, {}), "");
+        EXPECT_EQ(wrong_expression(spec.expression, kNames), "") << spec.expression;
+    EXPECT_NE(wrong_expression("peek(\"a\", 1)", kNames), "");
+    EXPECT_NE(wrong_expression("peak(\"b\", 1)", kNames), "");
 }
 
 TEST(Results, ThatAreNotThereAreNone) {
