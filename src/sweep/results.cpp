@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <regex>
 #include <string_view>
 
 #include "core/failure.h"
@@ -86,13 +85,13 @@ void define(mu::Parser& parser, Subject& subject, double& duration, double& ball
 /// What the name that a function is given may be.
 enum class NameKind { kBall, kBallOrAll, kPair };
 
+/// Of another function muParser says that it is none.
 NameKind kind_of(std::string_view function) {
-    constexpr std::string_view kOfPairs[] = {
-        "impacts",     "slide_time",     "roll_time",        "rest_time", "leave_time",
-        "impact_time", "approach_speed", "separation_speed", "impulse"};
-    if (std::ranges::find(kOfPairs, function) != std::end(kOfPairs)) return NameKind::kPair;
+    constexpr std::string_view kOfBalls[] = {"peaks", "peak", "peak_time", "x",     "y",   "z",
+                                             "vx",    "vy",   "vz",        "speed", "spin"};
+    if (std::ranges::find(kOfBalls, function) != std::end(kOfBalls)) return NameKind::kBall;
     return function == "energy" || function == "kinetic_energy" ? NameKind::kBallOrAll
-                                                                : NameKind::kBall;
+                                                                : NameKind::kPair;
 }
 
 /// A text in quotes, and the function in whose brackets it stands.
@@ -100,12 +99,29 @@ struct QuotedName {
     std::string function, text;
 };
 
-std::vector<QuotedName> names_in(const std::string& expression) {
-    static const std::regex kQuoted("([A-Za-z_]*)\\s*\\(?\\s*\"([^\"]*)\"");
+/// The word before the bracket that is the last character; "" for none.
+std::string function_before(std::string_view expression) {
+    const auto trim = [&] {
+        while (expression.ends_with(' ')) expression.remove_suffix(1);
+    };
+    trim();
+    if (!expression.ends_with('(')) return "";
+    expression.remove_suffix(1);
+    trim();
+    const std::size_t before = expression.find_last_not_of("abcdefghijklmnopqrstuvwxyz_");
+    return std::string(expression.substr(before == expression.npos ? 0 : before + 1));
+}
+
+std::vector<QuotedName> names_in(std::string_view expression) {
     std::vector<QuotedName> names;
-    for (std::sregex_iterator at(expression.begin(), expression.end(), kQuoted), end; at != end;
-         ++at)
-        names.push_back({(*at)[1], (*at)[2]});
+    std::size_t open = expression.find('"');
+    while (open != expression.npos) {
+        const std::size_t close = expression.find('"', open + 1);
+        if (close == expression.npos) break;
+        names.push_back({function_before(expression.substr(0, open)),
+                         std::string(expression.substr(open + 1, close - open - 1))});
+        open = expression.find('"', close + 1);
+    }
     return names;
 }
 
@@ -134,9 +150,16 @@ std::string wrong_name(const QuotedName& name, const ResultNames& known) {
 }
 
 /// muParser would set a variable, for all columns that follow.
-bool has_assignment(const std::string& expression) {
-    static const std::regex kElse("\"[^\"]*\"|[=!<>]=");
-    return std::regex_replace(expression, kElse, "").find('=') != std::string::npos;
+bool has_assignment(std::string_view expression) {
+    bool in_quotes = false;
+    for (std::size_t i = 0; i < expression.size(); ++i) {
+        const char c = expression[i], next = i + 1 < expression.size() ? expression[i + 1] : ' ';
+        if (c == '"') in_quotes = !in_quotes;
+        if (in_quotes) continue;
+        if (c == '=' && next != '=') return true;
+        if (next == '=' && std::string_view("=!<>").find(c) != std::string_view::npos) ++i;
+    }
+    return false;
 }
 
 }  // namespace
