@@ -17,6 +17,11 @@ struct IndexCounts {
     std::vector<RunRecord> first_failed;             ///< some of them, in order
 };
 
+/// How the runs first ... last - 1 ended, from their records. One of other values counts as
+/// missing.
+IndexCounts count_runs(const Sweep& sweep, const Plan& plan, const std::string& dir,
+                       std::int64_t first, std::int64_t last);
+
 /// Writes index.csv and dataset.json from the records of all runs, each only where its text is
 /// another. A record of other values counts as missing. `versions` are those of the libraries.
 IndexCounts write_index(const Sweep& sweep, const Plan& plan, const std::string& dir,
