@@ -14,8 +14,8 @@
 #include "cli/sweep_options.h"
 #include "cli/sweep_run.h"
 #include "core/failure.h"
-#include "sweep/plan.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 

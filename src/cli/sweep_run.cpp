@@ -15,11 +15,11 @@
 #include "media/output_folder.h"
 #include "scene/film_clock.h"
 #include "sim/versions.h"
-#include "sweep/index.h"
-#include "sweep/results.h"
-#include "sweep/run_files.h"
-#include "sweep/run_maker.h"
-#include "sweep/run_many.h"
+#include "sweep/file/results.h"
+#include "sweep/runs/index.h"
+#include "sweep/runs/run_files.h"
+#include "sweep/runs/run_maker.h"
+#include "sweep/runs/run_many.h"
 
 namespace carom {
 

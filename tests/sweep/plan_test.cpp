@@ -1,5 +1,5 @@
 // Which runs there are, and the values that are drawn for them.
-#include "sweep/plan.h"
+#include "sweep/file/plan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 
 #include "geometry/nearest.h"
 #include "sim/simulate.h"
-#include "sweep/measured.h"
-#include "sweep/results.h"
-#include "sweep/run_maker.h"
-#include "sweep/run_record.h"
+#include "sweep/file/measured.h"
+#include "sweep/file/results.h"
+#include "sweep/runs/run_maker.h"
+#include "sweep/runs/run_record.h"
 #include "sweep_testing.h"
 
 namespace carom {

@@ -1,5 +1,5 @@
 // What a sweep's file gets wrong, with its place.
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 #include "scene/schema.h"
 #include "sweep_testing.h"

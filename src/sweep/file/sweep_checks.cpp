@@ -1,4 +1,4 @@
-#include "sweep/sweep_checks.h"
+#include "sweep/file/sweep_checks.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include "scene/overrides.h"
 #include "scene/report.h"
 #include "scene/validate.h"
-#include "sweep/random_scene.h"
-#include "sweep/results.h"
+#include "sweep/file/random_scene.h"
+#include "sweep/file/results.h"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "sweep/draw.h"
+#include "sweep/file/draw.h"
 
 #include <fmt/format.h>
 

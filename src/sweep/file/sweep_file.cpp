@@ -1,4 +1,4 @@
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 #include <fmt/format.h>
 
@@ -14,9 +14,9 @@
 #include "scene/scalar.h"
 #include "scene/scene_tree.h"
 #include "scene/validate.h"
-#include "sweep/plan.h"
-#include "sweep/results.h"
-#include "sweep/sweep_checks.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/results.h"
+#include "sweep/file/sweep_checks.h"
 
 namespace carom {
 

@@ -8,7 +8,7 @@
 
 #include "motion/motion.h"
 #include "scene/scene.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 

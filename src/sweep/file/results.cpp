@@ -1,4 +1,4 @@
-#include "sweep/results.h"
+#include "sweep/file/results.h"
 
 #include <fmt/format.h>
 #include <muParser.h>
@@ -10,7 +10,7 @@
 
 #include "core/failure.h"
 #include "scene/scalar.h"
-#include "sweep/measured.h"
+#include "sweep/file/measured.h"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "sweep/random_scene.h"
+#include "sweep/file/random_scene.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "sweep/index.h"
+#include "sweep/runs/index.h"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sweep/plan.h"
-#include "sweep/run_record.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/sweep_file.h"
+#include "sweep/runs/run_record.h"
 
 namespace carom {
 

@@ -17,8 +17,8 @@
 
 #include "core/check.h"
 #include "core/failure.h"
-#include "sweep/run_maker.h"
-#include "sweep/run_many.h"
+#include "sweep/runs/run_maker.h"
+#include "sweep/runs/run_many.h"
 
 namespace carom {
 
