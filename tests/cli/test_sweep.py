@@ -275,6 +275,8 @@ axes: {"balls.a.position[2]": [0.5, 0.05, 0.6, -1, 0.7]}
         result = self.sweep("base: scene.yaml\naxes: {balls.a.mas: [1]}\n", code=3)
         self.assertRegex(result.stderr, r"sweep.yaml:2:8: error: unknown key 'mas'; did you mean 'mass'\?")
         self.sweep("base: none.yaml\n", code=2)
+        self.write("sweep.yaml", "base: '-'\n")
+        self.assert_exit(2, run("sweep", "sweep.yaml", "-o", "out", input=self.scene.read_text(), cwd=self.folder))
         self.assert_exit(2, run("sweep", self.folder / "none.yaml", "-o", self.folder / "out"))
         self.assert_exit(2, run("sweep", "-", "-o", self.folder / "out", input=NUMBERS))
         self.assert_exit(2, run("sweep", self.scene))

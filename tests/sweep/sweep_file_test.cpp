@@ -58,6 +58,8 @@ TEST(SweepFile, NamesLineAndColumnOfEveryMistake) {
         {"base: base.yaml\nresults:\n  r: pek(\"a\", 1)\n", "3:6: not an expression: "},
         {"base: base.yaml\nresults: {1r: duration}\n", "2:11: '1r' is not a name"},
         {"base: base.yaml\nresults: {status: duration}\n", "2:11: 'status' is a column already"},
+        {"base: base.yaml\naxes: {title: [a, b]}\nresults: {title: duration}\n",
+         "3:11: 'title' is a column already"},
         {"base: base.yaml\noutputs: {film: avi}\n", "2:17: 'film' must be true or false or one of"},
         {"base: base.yaml\noutputs: {quality: high}\n", "2:11: 'quality' is of a film"},
         {"base: base.yaml\noutputs: {layers: [dept]}\n", "2:20: there is no layer 'dept'"},

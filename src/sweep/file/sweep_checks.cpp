@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 
@@ -94,12 +95,12 @@ void check_names_of_results(const Sweep& sweep, const Scene& base, const Node& r
     for (const RandomBalls& group : sweep.balls) known.drawn.push_back(group.name + "_");
     const Node* results = root.find("results");
     if (results == nullptr) return;
+    std::vector<std::string> columns = {"run", "motion_hash", "status", "reason"};
+    for (const Axis& axis : sweep.axes) columns.push_back(axis.path);
     for (const Node& one : results->children) {
-        for (const char* column : {"run", "motion_hash", "status", "reason"})
-            if (one.key == column)
-                diagnostics.add(
-                    {Severity::kError, path, one.key_mark,
-                     fmt::format("'{}' is a column already; name it otherwise", column)});
+        if (std::ranges::find(columns, one.key) != columns.end())
+            diagnostics.add({Severity::kError, path, one.key_mark,
+                             fmt::format("'{}' is a column already; name it otherwise", one.key)});
         const std::string wrong = wrong_expression(one.text, known);
         if (!wrong.empty()) diagnostics.add({Severity::kError, path, one.mark, wrong});
     }

@@ -251,6 +251,7 @@ bool read_base(const std::string& path, const Node& root, const std::vector<Over
                Sweep& sweep, Diagnostics& diagnostics) {
     const fs::path named = root.find("base")->text;
     sweep.base_file = (fs::path(path).parent_path() / named).string();
+    if (sweep.base_file == "-") sweep.base_file = "./-";  // a file, not standard input
     sweep.base_text = read_scene_text(sweep.base_file);
     Report report(sweep.base_file);
     report.add_source(path);  // kSweepSource, for later
