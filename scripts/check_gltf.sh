@@ -12,7 +12,7 @@ npm install --silent --ignore-scripts --prefix "$folder" gltf-validator@2.0.0-de
     echo "check_gltf: skipped, npm has no gltf-validator: $(tail -n 1 "$folder/log")"
     exit 0
 }
-for scene in $(find scenes -name '*.yaml' -not -path 'scenes/hard/*' | sort); do
+for scene in $(scripts/golden_scenes.sh); do
     "$program" simulate "$scene" -o "$folder/$(basename "$scene" .yaml).glb" -q -y
 done
 cat >"$folder/check.js" <<'JS'

@@ -4,4 +4,4 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh --group film --preset release
-find scenes -name '*.yaml' -not -path 'scenes/hard/*' -not -path 'scenes/measured/*' | sort | xargs build/release/carom golden update --dir tests/golden --size 320x180
+scripts/golden_scenes.sh | xargs build/release/carom golden update --dir tests/golden --size 320x180

@@ -14,7 +14,7 @@
 #include "cli/standard_output.h"
 #include "core/readable.h"
 #include "scene/schema.h"
-#include "sweep/results.h"
+#include "sweep/file/results.h"
 
 namespace carom {
 

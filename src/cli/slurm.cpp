@@ -39,6 +39,21 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
+/// An end of line in it would begin a line of the script, which bash runs.
+void require_one_line(const char* what, const std::string& text) {
+    if (text.find_first_of("\r\n") == std::string::npos) return;
+    throw Failure(
+        FailureKind::kInput,
+        fmt::format("{} '{}': an end of line cannot stand in a script of Slurm", what, text));
+}
+
+/// A folder in a name of Slurm's logs, in which % begins a pattern and %% is one of it.
+std::string in_pattern(const std::string& folder) {
+    std::string text;
+    for (const char c : folder) text += c == '%' ? std::string("%%") : std::string(1, c);
+    return text;
+}
+
 /// What a program writes on standard output, and how it ended; -1 where it cannot be run.
 struct Finished {
     int code = -1;
@@ -88,6 +103,11 @@ class SlurmJobs {
           block_(std::min(tasks_, max_array(options.slurm))) {
         if (!dir_.has_filename()) dir_ = dir_.parent_path();
         name_ = "carom-" + fs::path(options.file).stem().string();
+        require_one_line("SWEEP.yaml", name_);
+        require_one_line("-o", dir_.string());
+        require_one_line("--partition", options.slurm.partition);
+        require_one_line("--account", options.slurm.account);
+        require_one_line("--time", options.slurm.time);
     }
 
     std::string array_script() const {
@@ -125,7 +145,8 @@ class SlurmJobs {
         std::string text = "#!/bin/bash\n";
         const auto add = [&text](const std::string& option) { text += "#SBATCH " + option + "\n"; };
         add("--job-name=" + quoted(name_ + "-" + kind));
-        add("--output=" + quoted((folder() / fmt::format("{}-{}.log", kind, log)).string()));
+        add("--output=" +
+            quoted(fmt::format("{}/{}-{}.log", in_pattern(folder().string()), kind, log)));
         add("--open-mode=append");
         // Slurm puts a task of a node that fails into the queue again: it goes on where it was.
         add("--requeue");
@@ -162,8 +183,9 @@ void print(const SlurmJobs& jobs) {
     write_standard_output(text + jobs.index_command(names) + "\n");
 }
 
-/// The job's number.
-std::string submit(const std::string& command) {
+/// The job's number. `submitted` are those before it, which the user has to know of if this one is
+/// refused.
+std::string submit(const std::string& command, const std::vector<std::string>& submitted) {
     const Finished finished = run(command);
     std::string job = finished.output.substr(0, finished.output.find_first_of(";\n"));
     const bool number = !job.empty() && std::all_of(job.begin(), job.end(), [](unsigned char c) {
@@ -174,25 +196,27 @@ std::string submit(const std::string& command) {
         throw Failure(FailureKind::kRun,
                       "sbatch is not here: Slurm takes jobs on a machine that has its commands; "
                       "--print shows them");
-    throw Failure(FailureKind::kRun,
-                  fmt::format("Slurm has not taken the job: {} (exit code {}, it said '{}')",
-                              command, finished.code, job));
+    throw Failure(
+        FailureKind::kRun,
+        fmt::format("Slurm has not taken the job: {} (exit code {}, it said '{}'){}", command,
+                    finished.code, job,
+                    submitted.empty() ? ""
+                                      : fmt::format("; submitted before it, and not taken back: {}",
+                                                    fmt::join(submitted, ", "))));
 }
 
 }  // namespace
 
 void submit_to_slurm(const SweepOptions& options, std::int64_t runs) {
-    if (!options.slice.empty() || options.index)
-        throw Failure(FailureKind::kInput,
-                      "--slurm makes slices and the index itself: leave out --slice and --index");
     const SlurmJobs jobs(options, runs);
     if (options.slurm.print) return print(jobs);
     prepare_folder(jobs.folder().string());
     write_text_file(jobs.array_path().string(), jobs.array_script());
     write_text_file(jobs.index_path().string(), jobs.index_script());
     std::vector<std::string> submitted;
-    for (const std::string& command : jobs.array_commands()) submitted.push_back(submit(command));
-    const std::string last = submit(jobs.index_command(submitted));
+    for (const std::string& command : jobs.array_commands())
+        submitted.push_back(submit(command, submitted));
+    const std::string last = submit(jobs.index_command(submitted), submitted);
     if (!options.common.quiet)
         say("carom: {} runs in {} tasks of job{} {}; job {} writes the index\n", runs, jobs.tasks(),
             submitted.size() > 1 ? "s" : "", fmt::join(submitted, ", "), last);

@@ -14,8 +14,8 @@
 #include "cli/sweep_options.h"
 #include "cli/sweep_run.h"
 #include "core/failure.h"
-#include "sweep/plan.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 
@@ -32,7 +32,31 @@ void require_own_folder(const std::string& dir) {
         fmt::format("'{}' has an index.csv that no sweep has written: name another folder", dir));
 }
 
+/// What is asked for beside what it has no meaning with.
+void require_sense(const SweepOptions& options) {
+    const SlurmOptions& slurm = options.slurm;
+    const bool to_slurm = slurm.submit || slurm.print;
+    const auto refuse = [](bool wrong, const char* message) {
+        if (wrong) throw Failure(FailureKind::kInput, message);
+    };
+    const char* of_slurm = slurm.tasks > 0            ? "--tasks"
+                           : slurm.max_array > 0      ? "--max-array"
+                           : !slurm.partition.empty() ? "--partition"
+                           : !slurm.time.empty()      ? "--time"
+                           : !slurm.account.empty()   ? "--account"
+                                                      : nullptr;
+    if (of_slurm != nullptr && !to_slurm)
+        throw Failure(FailureKind::kInput, fmt::format("{} is for --slurm or --print", of_slurm));
+    refuse(to_slurm && (!options.slice.empty() || options.index),
+           "--slurm makes slices and the index itself: leave out --slice and --index");
+    refuse(to_slurm && options.dry_run,
+           "--dry-run makes runs here: leave out --slurm; --print shows what it would submit");
+    refuse(options.index && options.dry_run,
+           "--index makes no run whose cost --dry-run could say: leave out one of them");
+}
+
 int sweep_command(const SweepOptions& options, const Interrupt& interrupt) {
+    require_sense(options);
     if (options.file == "-")
         throw Failure(FailureKind::kInput,
                       "SWEEP.yaml -: a sweep is a file, beside which its base is looked for");

@@ -12,7 +12,7 @@
 #include "cli/standard_output.h"
 #include "cli/sweep_run.h"
 #include "core/temporary_folder.h"
-#include "sweep/run_maker.h"
+#include "sweep/runs/run_maker.h"
 
 namespace carom {
 

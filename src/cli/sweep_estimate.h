@@ -3,8 +3,8 @@
 
 #include "cli/interrupt.h"
 #include "cli/sweep_options.h"
-#include "sweep/plan.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 

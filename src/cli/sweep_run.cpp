@@ -15,11 +15,11 @@
 #include "media/output_folder.h"
 #include "scene/film_clock.h"
 #include "sim/versions.h"
-#include "sweep/index.h"
-#include "sweep/results.h"
-#include "sweep/run_files.h"
-#include "sweep/run_maker.h"
-#include "sweep/run_many.h"
+#include "sweep/file/results.h"
+#include "sweep/runs/index.h"
+#include "sweep/runs/run_files.h"
+#include "sweep/runs/run_maker.h"
+#include "sweep/runs/run_many.h"
 
 namespace carom {
 
@@ -77,37 +77,28 @@ double bytes_of_worker(const Sweep& sweep, const Scene& scene) {
     return kProgram + film_needs(outputs, scene, encoding, 1).memory_bytes;
 }
 
-/// Tells how far the runs are, and which failed.
+/// Tells how far the runs are.
 class SweepProgress {
   public:
     SweepProgress(const SweepOptions& options, const Interrupt& interrupt, std::int64_t total)
-        : quiet_(options.common.quiet),
-          progress_(options.common.progress_mode(), interrupt, kSweeping, total) {}
+        : progress_(options.common.progress_mode(), interrupt, kSweeping, total) {}
 
     void tell(const RunOutcome* outcome) {
-        if (outcome != nullptr) {
-            ++ended_;
-            failed_ += !outcome->done;
-        }
+        if (outcome != nullptr) ++ended_;
         progress_.update(static_cast<double>(ended_));
     }
     std::int64_t ended() const { return ended_; }
-    std::int64_t failed() const { return failed_; }
 
   private:
-    bool quiet_;
-    std::int64_t ended_ = 0, failed_ = 0;
+    std::int64_t ended_ = 0;
     Progress progress_;
 };
 
-struct Made {
-    std::int64_t ended = 0, failed = 0;
-};
-
-Made make_runs(const SweepOptions& options, const Interrupt& interrupt, const Sweep& sweep,
-               const Plan& plan, const std::vector<std::int64_t>& todo) {
-    Made made;
-    if (todo.empty()) return made;
+/// How many ended.
+std::int64_t make_runs(const SweepOptions& options, const Interrupt& interrupt, const Sweep& sweep,
+                       const Plan& plan, const std::vector<std::int64_t>& todo) {
+    std::int64_t ended = 0;
+    if (todo.empty()) return ended;
     {
         SweepProgress progress(options, interrupt, static_cast<std::int64_t>(todo.size()));
         const ManyRuns runs{todo,
@@ -120,13 +111,13 @@ Made make_runs(const SweepOptions& options, const Interrupt& interrupt, const Sw
             run_in_processes(runs);
         else
             run_in_threads(runs);
-        made = {progress.ended(), progress.failed()};
+        ended = progress.ended();
     }
     if (interrupt.requested()) {
-        interrupt.reached(fmt::format("after {} of {} runs", made.ended, todo.size()));
+        interrupt.reached(fmt::format("after {} of {} runs", ended, todo.size()));
         throw Interrupted{};
     }
-    return made;
+    return ended;
 }
 
 void say_failed(const IndexCounts& counts) {
@@ -135,7 +126,11 @@ void say_failed(const IndexCounts& counts) {
             readable_message(record.reason));
     const auto named = static_cast<std::int64_t>(counts.first_failed.size());
     if (counts.failed > named)
-        say("carom: {} more failed; index.csv says why\n", counts.failed - named);
+        say("carom: {} more failed; the run.json of each says why\n", counts.failed - named);
+}
+
+int exit_code(const IndexCounts& counts) {
+    return counts.failed + counts.missing > 0 ? kExitFailed : kExitDone;
 }
 
 }  // namespace
@@ -165,24 +160,26 @@ int index_sweep(const SweepOptions& options, const Sweep& sweep, const Plan& pla
         say("carom: {} runs done, {} failed, {} missing: {}/index.csv\n", counts.done,
             counts.failed, counts.missing, readable(options.dir));
     say_failed(counts);
-    return counts.failed + counts.missing > 0 ? kExitFailed : kExitDone;
+    return exit_code(counts);
 }
 
 int run_sweep(const SweepOptions& options, const Interrupt& interrupt, const Sweep& sweep,
               const Plan& plan) {
     if (const std::optional<Scene> scene = some_scene(sweep, plan))
         require_run_files(sweep.outputs, *scene);
-    prepare_folder(options.dir);
     const SweepSlice slice = sweep_slice(options.slice, plan.count());
+    prepare_folder(options.dir);
     const std::vector<std::int64_t> todo = missing_runs(options.dir, sweep, plan, slice);
-    const Made made = make_runs(options, interrupt, sweep, plan, todo);
+    const std::int64_t made = make_runs(options, interrupt, sweep, plan, todo);
     // Processes that were killed with an earlier command may have ended only now.
     if (!todo.empty()) find_run_folders(options.dir, slice.first, slice.last);
     if (!options.common.quiet)
-        say("carom: {} runs made, {} were there\n", made.ended,
+        say("carom: {} runs made, {} were there\n", made,
             slice.last - slice.first - static_cast<std::int64_t>(todo.size()));
     if (options.slice.empty()) return index_sweep(options, sweep, plan);
-    return made.failed > 0 ? kExitFailed : kExitDone;
+    const IndexCounts counts = count_runs(sweep, plan, options.dir, slice.first, slice.last);
+    say_failed(counts);
+    return exit_code(counts);
 }
 
 }  // namespace carom

@@ -104,7 +104,7 @@ int view(const ViewOptions& options, const Interrupt& interrupt) {
         throw Failure(FailureKind::kInput, fmt::format("cannot read '{}'", options.scene));
     options.common.overrides();  // a wrong --set ends the command, not a page
     ViewServer server(options.port);
-    server.show(wrong_scene_page(options.scene, "simulating ...", 0), 0);
+    server.show(waiting_page(options.scene, 0), 0);
     const SceneWatch watch(options, server);
     write_standard_output(fmt::format("http://127.0.0.1:{}/\n", server.port()));
     server.serve([&] { return interrupt.requested(); });

@@ -63,8 +63,11 @@ struct ViewServer::Libevent {
     bool is_for_us(evhttp_request* request) const {
         const char* host = evhttp_find_header(evhttp_request_get_input_headers(request), "Host");
         if (host == nullptr) return false;
+        constexpr int kHttp = 80;  // the port that browsers leave out
         for (const char* name : {"127.0.0.1", "localhost"})
-            if (host == fmt::format("{}:{}", name, port)) return true;
+            if (host == fmt::format("{}:{}", name, port) ||
+                (port == kHttp && name == std::string(host)))
+                return true;
         return false;
     }
 

@@ -272,13 +272,16 @@ class MotionGlb {
         const double rate = std::min(kRate, kMostKeys / std::max(1.0, motion_.duration));
         std::vector<float> at, places, turns;
         Eigen::Vector4d last = Eigen::Vector4d::Zero();
-        for (double k = 0; k / rate < motion_.duration; ++k) {
-            const Camera now = camera_at(camera, motion_, k / rate);
+        const double last_key = std::ceil(motion_.duration * rate);
+        for (double k = 0; k <= last_key; ++k) {
+            const double t = std::min(k / rate, motion_.duration);
+            if (!at.empty() && static_cast<float>(t) <= at.back()) continue;
+            const Camera now = camera_at(camera, motion_, t);
             Eigen::Vector4d turn =
                 camera_turn(View(now, scene_.film.width_px, scene_.film.height_px));
             if (turn.dot(last) < 0) turn = -turn;
             last = turn;
-            at.push_back(static_cast<float>(k / rate));
+            at.push_back(static_cast<float>(t));
             append(places, Vec3(now.from - origin_));
             append(turns, turn);
         }

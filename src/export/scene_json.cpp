@@ -62,7 +62,7 @@ Json shape_json(const SurfaceShape& shape) {
         shape);
 }
 
-/// Rows of from, to and fov_deg; as many a second that a quarter of a frame's turn lies between.
+/// Rows of from, to and fov_deg: kRate a second, fewer where that makes more than kMostKeys.
 void add_keys(const Camera& camera, const Motion& motion, Json& json) {
     constexpr double kRate = 60, kMostKeys = 20'000;
     const double rate = std::min(kRate, kMostKeys / std::max(motion.duration, 1.0));

@@ -88,7 +88,7 @@ std::string page_head(std::string_view title, const std::vector<std::string_view
 std::string viewer_elements(const Motion& motion) {
     std::string speeds;
     for (const int slower : {1, 2, 5, 10, 30, 100, 300, 1000})
-        speeds += slower == 1 ? std::string("<option value=\"1\">as fast as it was</option>")
+        speeds += slower == 1 ? std::string("<option value=\"1\">real time</option>")
                               : fmt::format("<option value=\"{0}\">1/{0}</option>", slower);
     return fmt::format(
         "<p id=\"v-note\" class=\"soft\" role=\"status\" hidden></p>\n"

@@ -56,12 +56,12 @@ std::string pictures(const Scene& scene, const Motion& motion, const ReportParts
 
 std::string plots(const Scene& scene, const Motion& motion) {
     std::string text = heading("plots", "Heights and energy") + "<div class=\"two\">\n<figure>" +
-                       height_plot(scene, motion) + "<figcaption>Height of the lowest point";
+                       height_plot(scene, motion) +
+                       "<figcaption>Height of each ball's lowest point";
     if (motion.balls.size() > kMostCurves)
-        text += fmt::format(" of the first {} balls", kMostCurves);
-    return text + " over a height of 0</figcaption></figure>\n<figure>" +
-           energy_plot(scene, motion) +
-           "<figcaption>Energy of all balls, potential energy over a height of 0</figcaption>"
+        text += fmt::format(", of the first {} balls", kMostCurves);
+    return text + " above z = 0</figcaption></figure>\n<figure>" + energy_plot(scene, motion) +
+           "<figcaption>Energy of all balls; potential energy is that above z = 0</figcaption>"
            "</figure>\n</div>\n";
 }
 

@@ -21,6 +21,16 @@ std::string watching(int revision) {
         revision);
 }
 
+/// `content` is HTML.
+std::string page_without_viewer(const std::string& file, const std::string& content, int revision) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    return page_head(name, {watch_script().hash}, true) +
+           fmt::format(
+               "<header><h1>{}</h1>\n{}</header>\n<main>{}</main>\n<script>{}</script>\n"
+               "</body></html>\n",
+               escaped(name), watching(revision), content, watch_script().text);
+}
+
 }  // namespace
 
 std::string view_page(const Scene& scene, const SimulationResult& result,
@@ -37,15 +47,19 @@ std::string view_page(const Scene& scene, const SimulationResult& result,
            fmt::format("<script>{}</script>\n</body></html>\n", watch_script().text);
 }
 
+std::string waiting_page(const std::string& file, int revision) {
+    return page_without_viewer(
+        file, "<p role=\"status\">The scene is simulated; the page comes by itself.</p>\n",
+        revision);
+}
+
 std::string wrong_scene_page(const std::string& file, const std::string& messages, int revision) {
-    const std::string name = std::filesystem::path(file).filename().string();
-    return page_head(name, {watch_script().hash}, true) +
-           fmt::format(
-               "<header><h1>{}</h1>\n{}</header>\n<main><p class=\"bad\">The scene cannot be shown "
-               "as it is; the page follows when it is saved again.</p>\n<pre "
-               "tabindex=\"0\">{}</pre>"
-               "</main>\n<script>{}</script>\n</body></html>\n",
-               escaped(name), watching(revision), escaped_lines(messages), watch_script().text);
+    return page_without_viewer(
+        file,
+        fmt::format("<p class=\"bad\">The scene cannot be shown as it is; the page follows when it "
+                    "is saved again.</p>\n<pre tabindex=\"0\">{}</pre>",
+                    escaped_lines(messages)),
+        revision);
 }
 
 }  // namespace carom

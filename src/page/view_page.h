@@ -14,6 +14,9 @@ namespace carom {
 std::string view_page(const Scene& scene, const SimulationResult& result,
                       const std::string& version, int revision, KnownTextures& known);
 
+/// Until the first run of a scene has been simulated.
+std::string waiting_page(const std::string& file, int revision);
+
 /// The messages, line by line, until the scene is right again.
 std::string wrong_scene_page(const std::string& file, const std::string& messages, int revision);
 

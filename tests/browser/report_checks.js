@@ -123,6 +123,13 @@ const main = async () => {
   });
   check('the film plays', film.time > 0.2 && film.width > 0 && !film.error, JSON.stringify(film));
 
+  const trail = await page.evaluate(() => {
+    const count = 100000, {stage} = carom.viewer, {duration} = stage.motion;
+    const times = stage.trail_times({pieces: Array.from({length: count}, (_, i) => ({t: i / count * duration}))});
+    return {points: times.length, gap: Math.max(...times.map((t, i) => (i > 0 ? t - times[i - 1] : t))) / duration};
+  });
+  check('a trail of many pieces has no gap', trail.points <= 20001 && trail.gap < 1e-3, JSON.stringify(trail));
+
   const linked = await page.evaluate(async () => {
     const row = document.querySelectorAll('#bounces tbody tr')[1];
     row.querySelector('button').click();

@@ -23,6 +23,12 @@ film: {size: [160, 90], fps: 20}
 """
 
 
+def scenes_with_goldens():
+    """All but those that are for numbers: bench/hard_cases holds scenes/hard against closed forms, bench/measured.py
+    scenes/measured against measurements; and sweeps, which are no scenes."""
+    return sorted(p for p in (SOURCE / "scenes").rglob("*.yaml") if p.parent.name not in ("hard", "measured", "sweeps"))
+
+
 def run(*arguments, **keywords):
     """The finished process, with its output as text."""
     keywords.setdefault("text", True)

@@ -95,6 +95,19 @@ class Exports(ProgramTest):
         motion = json.loads(self.export("json").read_text())
         self.assertEqual("</script> \u202e & 'quotes'", motion["title"])
 
+    def test_a_camera_of_glb_moves_until_the_end(self):
+        self.scene.write_text(SPINNING + "camera: {from: [0, -4, 1], to: [0, 0, 0.5], orbit_deg_per_s: 30}\n")
+        data = self.export("glb").read_bytes()
+        document = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+        camera = [node["name"] for node in document["nodes"]].index("camera")
+        motion = document["animations"][0]
+        inputs = [motion["samplers"][channel["sampler"]]["input"] for channel in motion["channels"]
+                  if channel["target"]["node"] == camera]
+        self.assertEqual(2, len(inputs))
+        for accessor in inputs:
+            self.assertEqual([numpy.float32(1.3)], document["accessors"][accessor]["max"])
+            self.assertEqual(79, document["accessors"][accessor]["count"])
+
     def test_glb_is_whole(self):
         data = self.export("glb").read_bytes()
         magic, version, size = struct.unpack("<4sII", data[:12])

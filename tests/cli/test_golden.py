@@ -8,16 +8,14 @@ import pathlib
 import tempfile
 import unittest
 
-from program import SOURCE, run
+from program import SOURCE, run, scenes_with_goldens
 
 GOLDEN = SOURCE / "tests" / "golden"
 
 
 class Goldens(unittest.TestCase):
     def test_every_scene(self):
-        # These two are for numbers: bench/hard_cases holds those against closed forms, bench/measured.py
-        # against measurements.
-        scenes = sorted(p for p in (SOURCE / "scenes").rglob("*.yaml") if p.parent.name not in ("hard", "measured", "sweeps"))
+        scenes = scenes_with_goldens()
         self.assertGreaterEqual(len(scenes), 8)
         differences = pathlib.Path(os.environ["CAROM"]).parent / "golden-differences"
         result = run("golden", "check", *scenes, "--dir", GOLDEN, "--size", "320x180", "--diffs", differences)

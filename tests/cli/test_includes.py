@@ -64,6 +64,10 @@ ROOMS = {
         "picture": {"background", "balls", "blend", "draw2d", "element", "gl", "overlay", "runs",
                     "tile", "view"},
     },
+    "sweep": {
+        "file": set(),
+        "runs": {"file"},
+    },
 }
 
 MOST_FILES_OF_A_ROOM = 22

@@ -89,9 +89,14 @@ class JsonLines(ProgramTest):
 
 class PlainLines(ProgramTest):
     def test_a_film_says_its_time_its_rate_and_what_remains(self):
+        never_rests = self.write("bounces.yaml", """carom: 1
+simulation: {duration: 500}
+surfaces: [{name: floor, plane: {}}]
+balls: [{name: a, radius: 0.1, position: [0, 0, 1]}]
+""")
         process = subprocess.Popen(
-            [CAROM, "render", str(self.scene), "-o", str(self.folder / "f.mp4"), "--progress", "plain", "--set",
-             "simulation.duration=500", "--fps", "100", "--size", "640x360"], stderr=subprocess.PIPE, text=True)
+            [CAROM, "render", str(never_rests), "-o", str(self.folder / "f.mp4"), "--progress", "plain",
+             "--fps", "100", "--size", "640x360"], stderr=subprocess.PIPE, text=True)
         line = process.stderr.readline()
         process.kill()
         process.wait()

@@ -17,7 +17,8 @@ log = folder / "calls"
 number = 100 + (len(log.read_text().splitlines()) if log.exists() else 0)
 with log.open("a") as file:
     file.write(" ".join(sys.argv[1:]) + "\\n")
-if (folder / "full").exists():
+full_after = folder / "full-after"
+if (folder / "full").exists() or full_after.exists() and number - 100 >= int(full_after.read_text()):
     sys.exit("sbatch: error: no such partition")
 options = [a for a in sys.argv[1:] if a.startswith("--")]
 script, *rest = [a for a in sys.argv[1:] if not a.startswith("--")]
@@ -99,8 +100,40 @@ class Slurm(ProgramTest):
         self.assertIn("Slurm has not taken the job", result.stderr)
         self.assertIn("no such partition", result.stderr)
 
+    def test_jobs_that_were_taken_before_one_was_refused_are_named(self):
+        (self.folder / "full-after").write_text("2")
+        result = self.carom("--slurm", "--tasks", "10")
+        self.assert_exit(1, result)
+        self.assertIn("submitted before it, and not taken back: 100, 101", result.stderr)
+
     def test_slices_are_slurms_own(self):
-        self.assert_exit(2, self.carom("--slurm", "--slice", "1/2"))
+        for more in (["--slice", "1/2"], ["--index"], ["--dry-run"]):
+            for slurm in ("--slurm", "--print"):
+                self.assert_exit(2, self.carom(slurm, *more))
+        self.assert_exit(2, self.carom("--index", "--dry-run"))
+        self.assertFalse((self.folder / "calls").exists())
+
+    def test_options_of_slurm_are_refused_without_it(self):
+        for option, value in (("--tasks", "5"), ("--max-array", "5"), ("--partition", "p"), ("--time", "1:00"),
+                              ("--account", "a")):
+            result = self.carom(option, value)
+            self.assert_exit(2, result)
+            self.assertIn(f"{option} is for --slurm", result.stderr)
+            self.assertFalse((self.folder / "out").exists())
+
+    def test_no_name_begins_a_line_of_a_script(self):
+        word = "x\ntouch pwned #"
+        for options in (["--partition", word], ["--account", word], ["--time", word]):
+            self.assert_exit(2, self.carom("--print", *options))
+        self.assert_exit(2, self.carom("--print", out=f"{word}/out"))
+        self.sweep = self.write("a\nb.yaml", MANY)
+        self.assert_exit(2, self.carom("--print"))
+
+    def test_a_folder_with_a_percent_sign_is_no_pattern_of_logs(self):
+        result = self.carom("--print", out="at 90%j")
+        self.assert_exit(0, result)
+        self.assertIn("/at 90%%j/slurm/array-%A_%a.log'", result.stdout)
+        self.assertIn(f"-o '{self.folder}/at 90%j' ", result.stdout)
 
     def test_a_task_of_an_array_knows_its_slice(self):
         task = {**self.environment, "SLURM_ARRAY_TASK_ID": "5", "SLURM_ARRAY_TASK_MIN": "4", "SLURM_ARRAY_TASK_MAX": "7",

@@ -254,6 +254,13 @@ axes: {"balls.a.position[2]": [0.5, 0.05, 0.6, -1, 0.7]}
         again = self.sweep(self.OVERLAP, code=1)
         self.assertIn("0 runs made, 5 were there", again.stderr)
 
+    def test_a_slice_names_those_of_its_own_that_failed_again_too(self):
+        for _ in range(2):
+            result = self.sweep(self.OVERLAP, "--slice", "1/2", code=1)
+            self.assertIn("run 1 invalid: ", result.stderr)
+            self.assertNotIn("run 3", result.stderr)
+        self.sweep(self.OVERLAP.replace("-1", "0.9"), "--slice", "5/5", out="right")
+
     def test_fail_fast_begins_no_more(self):
         self.sweep(self.OVERLAP, "--fail-fast", "--jobs", 1, code=1)
         self.assertEqual(["done", "invalid", "missing", "missing", "missing"], [row["status"] for row in self.index()])
@@ -268,6 +275,8 @@ axes: {"balls.a.position[2]": [0.5, 0.05, 0.6, -1, 0.7]}
         result = self.sweep("base: scene.yaml\naxes: {balls.a.mas: [1]}\n", code=3)
         self.assertRegex(result.stderr, r"sweep.yaml:2:8: error: unknown key 'mas'; did you mean 'mass'\?")
         self.sweep("base: none.yaml\n", code=2)
+        self.write("sweep.yaml", "base: '-'\n")
+        self.assert_exit(2, run("sweep", "sweep.yaml", "-o", "out", input=self.scene.read_text(), cwd=self.folder))
         self.assert_exit(2, run("sweep", self.folder / "none.yaml", "-o", self.folder / "out"))
         self.assert_exit(2, run("sweep", "-", "-o", self.folder / "out", input=NUMBERS))
         self.assert_exit(2, run("sweep", self.scene))
@@ -275,7 +284,8 @@ axes: {"balls.a.position[2]": [0.5, 0.05, 0.6, -1, 0.7]}
         (self.folder / "mine" / "index.csv").write_text("my own\n")
         self.sweep(NUMBERS, out="mine", code=4)
         self.assertEqual("my own\n", (self.folder / "mine" / "index.csv").read_text())
-        self.sweep(NUMBERS, "--slice", "4/3", code=2)
+        self.sweep(NUMBERS, "--slice", "4/3", out="not made", code=2)
+        self.assertFalse((self.folder / "not made").exists())
         self.sweep(NUMBERS, out="scene.yaml", code=4)
 
     def test_against_is_refused_where_pictures_are_made(self):

@@ -9,6 +9,7 @@ import subprocess
 import time
 import unittest
 
+from long_work import GAS
 from program import CAROM, SMALL_SCENE, ProgramTest, run
 
 
@@ -57,6 +58,13 @@ class View(ProgramTest):
         self.assertTrue("raduis" in wrong and "did you mean" in wrong)
         os.replace(self.write("new.yaml", SMALL_SCENE), self.scene)
         self.page_with('id="motion"')
+
+    def test_a_page_says_that_the_scene_is_simulated(self):
+        self.scene.write_text(GAS)
+        self.serve()
+        page = self.get()[1]
+        self.assertIn("The scene is simulated", page)
+        self.assertNotIn("cannot be shown", page)
 
     def test_no_other_file_no_other_host_no_other_machine(self):
         self.serve()

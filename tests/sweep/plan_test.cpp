@@ -1,5 +1,5 @@
 // Which runs there are, and the values that are drawn for them.
-#include "sweep/plan.h"
+#include "sweep/file/plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +53,14 @@ TEST(Plan, RangesEndAtTheirEndsWithoutDebrisOfRounding) {
                             .sweep();
     EXPECT_EQ(rows(Plan(sweep)),
               "0.1 0.001 ; 0.2 0.01 ; 0.3 0.1 ; 0.4 1 ; 0.5 10 ; 0.6 100 ; 0.7 1000 ; ");
+}
+
+TEST(Plan, RangesMayHaveSubnormalValues) {
+    const Sweep sweep =
+        SweepFiles(
+            "base: base.yaml\naxes:\n  balls.a.position[0]: {from: 0, to: 4e-308, steps: 5}\n")
+            .sweep();
+    EXPECT_EQ(rows(Plan(sweep)), "0 ; 1e-308 ; 2e-308 ; 3e-308 ; 4e-308 ; ");
 }
 
 TEST(Plan, OfALatinHypercubeMeetsEachPartOfEachAxisOnce) {

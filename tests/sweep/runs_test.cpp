@@ -3,10 +3,10 @@
 
 #include "geometry/nearest.h"
 #include "sim/simulate.h"
-#include "sweep/measured.h"
-#include "sweep/results.h"
-#include "sweep/run_maker.h"
-#include "sweep/run_record.h"
+#include "sweep/file/measured.h"
+#include "sweep/file/results.h"
+#include "sweep/runs/run_maker.h"
+#include "sweep/runs/run_record.h"
 #include "sweep_testing.h"
 
 namespace carom {
@@ -58,14 +58,33 @@ TEST(Results, OfABounceAreItsClosedForm) {
 }
 
 TEST(Results, OfEachFunctionInTheDocumentsCanBeEvaluated) {
+    const ResultNames kNames = {{"a"}, {"floor"}, {}};
     std::vector<ResultSpec> specs;
     for (const ResultFunction& one : result_functions()) specs.push_back({"r", one.example});
     ASSERT_GT(specs.size(), 15U);
     EXPECT_EQ(results_of(specs).size(), specs.size());
     for (const ResultSpec& spec : specs)
-        EXPECT_EQ(wrong_expression(spec.expression, {"a"}, {}), "") << spec.expression;
-    EXPECT_NE(wrong_expression("peek(\"a\", 1)", {"a"}, {}), "");
-    EXPECT_NE(wrong_expression("peak(\"b\", 1)", {"a"}, {}), "");
+        EXPECT_EQ(wrong_expression(spec.expression, kNames), "") << spec.expression;
+    EXPECT_NE(wrong_expression("peek(\"a\", 1)", kNames), "");
+    EXPECT_NE(wrong_expression("peak(\"b\", 1)", kNames), "");
+}
+
+TEST(Results, AreOfWhatTheirFunctionsAreOf) {
+    const ResultNames names = {{"a"}, {"floor"}, {"marble_"}};
+    const auto wrong = [&](const char* expression) { return wrong_expression(expression, names); };
+    for (const char* right :
+         {"impacts(\"floor\")", "impacts(\"*/floor\")", "energy(\"*\", 0)", "peaks(\"marble_3\")",
+          "duration == 2", "duration >= 2 && balls != 3 ? 1 : peak( \"a\" , -1)", "duration <= 2"})
+        EXPECT_EQ(wrong(right), "") << right;
+    EXPECT_EQ(wrong("energy(\"floor\", 0)"), "there is no ball 'floor'; known here: a");
+    EXPECT_EQ(wrong("balls > 9 ? peak( \"floor\", 1) : 0"),
+              "there is no ball 'floor'; known here: a");
+    EXPECT_EQ(wrong("peak(\"a/floor\", 1)"), "peak() is of one ball, not of 'a/floor'");
+    EXPECT_EQ(wrong("speed(\"*\", 1)"), "speed() is of one ball, not of '*'");
+    EXPECT_EQ(wrong("energy(\"a/floor\", 1)"), "energy() is of one ball, not of 'a/floor'");
+    EXPECT_EQ(wrong("duration = 3"), "not an expression: '=' sets nothing here; '==' compares");
+    EXPECT_EQ(wrong("balls == (duration = 2)"), wrong("duration = 3"));
+    EXPECT_EQ(wrong("1, 2"), "not an expression: these are 2");
 }
 
 TEST(Results, ThatAreNotThereAreNone) {

@@ -1,5 +1,5 @@
 // What a sweep's file gets wrong, with its place.
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 #include "scene/schema.h"
 #include "sweep_testing.h"
@@ -48,11 +48,18 @@ TEST(SweepFile, NamesLineAndColumnOfEveryMistake) {
         {"base: base.yaml\naxes:\n  balls.a.mass: {from: 1, to: 2, steps: 10000}\n"
          "  balls.a.radius: {from: 1, to: 2, steps: 10000}\n",
          "1:1: this makes 100000000 runs or more"},
-        {"base: base.yaml\nresults: {r: peak(\"b\" 1)}\n", "2:14: there is no ball or surface 'b'"},
+        {"base: base.yaml\nresults: {r: peak(\"b\" 1)}\n", "2:14: there is no ball 'b'"},
+        {"base: base.yaml\nresults: {r: 'impacts(\"b\")'}\n",
+         "2:14: there is no ball or surface 'b'"},
+        {"base: base.yaml\nresults: {r: 'energy(\"floor\", 0)'}\n",
+         "2:14: there is no ball 'floor'"},
+        {"base: base.yaml\nresults: {r: duration = 3}\n", "2:14: not an expression: '='"},
         {"base: base.yaml\nresults:\n  r: peak(\"a\", 1\n", "3:6: not an expression: "},
         {"base: base.yaml\nresults:\n  r: pek(\"a\", 1)\n", "3:6: not an expression: "},
         {"base: base.yaml\nresults: {1r: duration}\n", "2:11: '1r' is not a name"},
         {"base: base.yaml\nresults: {status: duration}\n", "2:11: 'status' is a column already"},
+        {"base: base.yaml\naxes: {title: [a, b]}\nresults: {title: duration}\n",
+         "3:11: 'title' is a column already"},
         {"base: base.yaml\noutputs: {film: avi}\n", "2:17: 'film' must be true or false or one of"},
         {"base: base.yaml\noutputs: {quality: high}\n", "2:11: 'quality' is of a film"},
         {"base: base.yaml\noutputs: {layers: [dept]}\n", "2:20: there is no layer 'dept'"},
@@ -73,6 +80,13 @@ TEST(SweepFile, NamesLineAndColumnOfEveryMistake) {
         {"base: base.yaml\nrandom:\n  balls:\n    - {count: 1, region: {from: [0, 0, 0], to: [1, "
          "1, 1]}, each: {radius: 1, look: blue}}\n",
          ""},  // names are looked up when scenes are built
+        {"base: base.yaml\nrandom:\n  balls:\n    - {count: {choice: [1, 1, 2.5, 3, 3]}, region: "
+         "{from: [0, 0, 0], to: [1, 1, 1]}, each: {radius: 1}}\n",
+         "4:15: 'count' must be whole numbers"},
+        {"base: base.yaml\nrandom: {camera: {distance: {choice: [1, -1, 2]}}}\n",
+         "2:29: 'distance' must be above 0"},
+        {"base: base.yaml\nrandom: {camera: {distance: 1, elevation_deg: {choice: [0, 90, 1]}}}\n",
+         "2:47: 'elevation_deg' must be above -90"},
         {"base: base.yaml\nrandom: {camera: {distance: {uniform: [-1, 1]}}}\n",
          "2:29: 'distance' must be above 0"},
     };

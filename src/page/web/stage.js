@@ -195,17 +195,28 @@ carom.Stage = class {
 
   // ---- What is drawn beside the bodies ---------------------------------------------------------
 
+  // Instants of a ball's trail: where its pieces begin and between, at most 20000 and so spread over
+  // the whole motion, however many pieces it has.
+  trail_times(ball) {
+    const most = 20000, {duration} = this.motion, times = [];
+    const step = Math.max(duration / most, 0.01);
+    let last = -Infinity;
+    ball.pieces.forEach((piece, i) => {
+      const end = i + 1 < ball.pieces.length ? ball.pieces[i + 1].t : duration;
+      for (let t = piece.t; t < end; t += step) {
+        if (t - last < duration / most) continue;
+        times.push(t);
+        last = t;
+      }
+    });
+    times.push(duration);
+    return times;
+  }
+
   add_trails() {
-    const most = 20000;  // points a ball
     this.trails = new THREE.Group();
     this.paths = this.motion.balls.map((ball) => {
-      const times = [], points = [];
-      const step = Math.max(this.motion.duration / most, 0.01);
-      ball.pieces.forEach((piece, i) => {
-        const end = i + 1 < ball.pieces.length ? ball.pieces[i + 1].t : this.motion.duration;
-        for (let t = piece.t; t < end && times.length < 2 * most; t += step) times.push(t);
-      });
-      times.push(this.motion.duration);
+      const times = this.trail_times(ball), points = [];
       for (const t of times) points.push(...ball.position(t));
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));

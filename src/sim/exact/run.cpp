@@ -101,7 +101,7 @@ void ExactRun::run(const std::stop_token& stop, const SimulationProgress& progre
         } else {
             next = due(first.ball);
             queue_.take_first();
-            queue_.for_some_upcoming([this](int ball) { fetch(ball); });
+            fetch_upcoming();
             if (!is_current(next)) continue;
         }
         const bool stuck = standstill.stuck(next.time, next.ball);
@@ -226,6 +226,14 @@ void ExactRun::fetch(int ball) const {
     __builtin_prefetch(&next_[static_cast<std::size_t>(ball)]);
     world_.fetch(ball);
     if (world_.grid) world_.grid->fetch(ball);
+}
+
+/// What the next event reads, and the little that a few of those after it read first: more would
+/// wait for each other.
+void ExactRun::fetch_upcoming() const {
+    fetch(queue_.upcoming().ball);
+    queue_.for_some_upcoming(
+        [this](int ball) { __builtin_prefetch(&next_[static_cast<std::size_t>(ball)]); });
 }
 
 /// The next prediction, and the others of its instant.

@@ -33,6 +33,7 @@ class ExactRun {
     bool is_current(const Prediction& p) const { return world_.ball(p.ball).stamp == p.stamp; }
     Prediction due(int ball) const;
     void fetch(int ball) const;
+    void fetch_upcoming() const;
     void take_together(const Prediction& next);
     void predict(int ball, double now);
     void act_on(const Outlook& outlook, double now);

@@ -13,7 +13,7 @@
 #include "scene/keys.h"
 #include "scene/overrides.h"
 #include "scene/reader.h"
-#include "sweep/draw.h"
+#include "sweep/file/draw.h"
 
 namespace carom {
 

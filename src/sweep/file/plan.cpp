@@ -1,4 +1,4 @@
-#include "sweep/plan.h"
+#include "sweep/file/plan.h"
 
 #include <fmt/format.h>
 

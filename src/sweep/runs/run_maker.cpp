@@ -1,4 +1,4 @@
-#include "sweep/run_maker.h"
+#include "sweep/runs/run_maker.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@
 #include "scene/overrides.h"
 #include "scene/scene_tree.h"
 #include "sim/simulate.h"
-#include "sweep/random_scene.h"
-#include "sweep/run_files.h"
+#include "sweep/file/random_scene.h"
+#include "sweep/runs/run_files.h"
 
 namespace carom {
 

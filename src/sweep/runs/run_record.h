@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "scene/document.h"
-#include "sweep/plan.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 

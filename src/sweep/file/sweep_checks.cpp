@@ -1,15 +1,16 @@
-#include "sweep/sweep_checks.h"
+#include "sweep/file/sweep_checks.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 
 #include "scene/overrides.h"
 #include "scene/report.h"
 #include "scene/validate.h"
-#include "sweep/random_scene.h"
-#include "sweep/results.h"
+#include "sweep/file/random_scene.h"
+#include "sweep/file/results.h"
 
 namespace carom {
 
@@ -88,19 +89,19 @@ void check_axes(const Sweep& sweep, Diagnostics& diagnostics) {
 
 void check_names_of_results(const Sweep& sweep, const Scene& base, const Node& root,
                             const std::string& path, Diagnostics& diagnostics) {
-    std::vector<std::string> names, prefixes;
-    for (const Ball& ball : base.balls) names.push_back(ball.name);
-    for (const Surface& surface : base.surfaces) names.push_back(surface.name);
-    for (const RandomBalls& group : sweep.balls) prefixes.push_back(group.name + "_");
+    ResultNames known;
+    for (const Ball& ball : base.balls) known.balls.push_back(ball.name);
+    for (const Surface& surface : base.surfaces) known.surfaces.push_back(surface.name);
+    for (const RandomBalls& group : sweep.balls) known.drawn.push_back(group.name + "_");
     const Node* results = root.find("results");
     if (results == nullptr) return;
+    std::vector<std::string> columns = {"run", "motion_hash", "status", "reason"};
+    for (const Axis& axis : sweep.axes) columns.push_back(axis.path);
     for (const Node& one : results->children) {
-        for (const char* column : {"run", "motion_hash", "status", "reason"})
-            if (one.key == column)
-                diagnostics.add(
-                    {Severity::kError, path, one.key_mark,
-                     fmt::format("'{}' is a column already; name it otherwise", column)});
-        const std::string wrong = wrong_expression(one.text, names, prefixes);
+        if (std::ranges::find(columns, one.key) != columns.end())
+            diagnostics.add({Severity::kError, path, one.key_mark,
+                             fmt::format("'{}' is a column already; name it otherwise", one.key)});
+        const std::string wrong = wrong_expression(one.text, known);
         if (!wrong.empty()) diagnostics.add({Severity::kError, path, one.mark, wrong});
     }
 }

@@ -1,10 +1,12 @@
-#include "sweep/draw.h"
+#include "sweep/file/draw.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -17,7 +19,11 @@ namespace carom {
 namespace {
 
 /// 0.30000000000000004 is 0.3: nobody means the last digit of a range.
-double rounded(double value) { return std::stod(fmt::format("{:.15g}", value)); }
+double rounded(double value) {
+    const std::string text = fmt::format("{:.15g}", value);
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
 
 /// The standard normal distribution's part below x, and the other way round.
 double normal_part(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }

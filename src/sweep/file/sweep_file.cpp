@@ -1,8 +1,9 @@
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -13,9 +14,9 @@
 #include "scene/scalar.h"
 #include "scene/scene_tree.h"
 #include "scene/validate.h"
-#include "sweep/plan.h"
-#include "sweep/results.h"
-#include "sweep/sweep_checks.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/results.h"
+#include "sweep/file/sweep_checks.h"
 
 namespace carom {
 
@@ -120,17 +121,27 @@ class SweepReader {
         sweep_.balls.push_back(std::move(group));
     }
 
+    /// Those that stand in the file, and of a draw its ends and its middle.
+    static std::vector<double> looked_at(const Draw& draw) {
+        constexpr double kNearlyOne = 1 - 1e-15;
+        std::vector<double> numbers;
+        for (const Node& value : draw.values()) numbers.push_back(node_number(value));
+        if (draw.values().empty())
+            for (const double u : {0.0, 0.5, kNearlyOne})
+                numbers.push_back(node_number(draw.at(u)));
+        return numbers;
+    }
+
     void require_whole_count(const Node& node, const RandomBalls& group) {
-        constexpr double kMost = 100'000, kNearlyOne = 1 - 1e-15;
-        for (const double u : {0.0, 0.5, kNearlyOne}) {
-            if (group.count.levels() == 0) return;
-            const double count = node_number(group.count.at(u));
-            if (count == std::floor(count) && count >= 0 && count <= kMost) continue;
+        constexpr double kMost = 100'000;
+        if (report_.diagnostics().has_errors()) return;
+        const auto right = [](double count) {
+            return count == std::floor(count) && count >= 0 && count <= kMost;
+        };
+        if (!std::ranges::all_of(looked_at(group.count), right))
             report_.error(*node.find("count"),
                           "'count' must be whole numbers between 0 and 100000: draw it by "
                           "'integer' or 'choice'");
-            return;
-        }
     }
 
     void check_each(const RandomBalls& group, const Node& each) {
@@ -161,15 +172,14 @@ class SweepReader {
         camera.azimuth_deg = read_number(node, "azimuth_deg", kAzimuth_deg);
         camera.elevation_deg = read_number(node, "elevation_deg", kElevation_deg);
         if (node.find("fov_deg") != nullptr) camera.fov_deg = read_number(node, "fov_deg", 0);
-        constexpr double kNearlyOne = 1 - 1e-15;
-        for (const double u : {0.0, kNearlyOne}) {
-            if (report_.diagnostics().has_errors()) return;
-            if (node_number(camera.distance.at(u)) <= 0)
-                return report_.error(*node.find("distance"), "'distance' must be above 0");
-            if (std::abs(node_number(camera.elevation_deg.at(u))) >= 90)
-                return report_.error(*node.find("elevation_deg"),
-                                     "'elevation_deg' must be above -90 and below 90");
-        }
+        if (report_.diagnostics().has_errors()) return;
+        const auto is_far = [](double distance) { return distance > 0; };
+        const auto is_no_pole = [](double degrees) { return std::abs(degrees) < 90; };
+        if (!std::ranges::all_of(looked_at(camera.distance), is_far))
+            return report_.error(*node.find("distance"), "'distance' must be above 0");
+        if (!std::ranges::all_of(looked_at(camera.elevation_deg), is_no_pole))
+            return report_.error(*node.find("elevation_deg"),
+                                 "'elevation_deg' must be above -90 and below 90");
         sweep_.camera = std::move(camera);
     }
 
@@ -241,6 +251,7 @@ bool read_base(const std::string& path, const Node& root, const std::vector<Over
                Sweep& sweep, Diagnostics& diagnostics) {
     const fs::path named = root.find("base")->text;
     sweep.base_file = (fs::path(path).parent_path() / named).string();
+    if (sweep.base_file == "-") sweep.base_file = "./-";  // a file, not standard input
     sweep.base_text = read_scene_text(sweep.base_file);
     Report report(sweep.base_file);
     report.add_source(path);  // kSweepSource, for later

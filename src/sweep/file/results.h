@@ -8,7 +8,7 @@
 
 #include "motion/motion.h"
 #include "scene/scene.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 
@@ -23,10 +23,14 @@ const std::vector<ResultFunction>& result_functions();
 /// All of them in Markdown, as they stand in docs/sweeps.md.
 std::string result_reference_markdown();
 
-/// Why this is no expression, "" for one that is. `balls` and `surfaces` are the names that may
-/// stand in it; a name that begins with one of `prefixes` may be one of a drawn ball.
-std::string wrong_expression(const std::string& expression, const std::vector<std::string>& names,
-                             const std::vector<std::string>& prefixes);
+/// Names that may stand in expressions.
+struct ResultNames {
+    std::vector<std::string> balls, surfaces;
+    std::vector<std::string> drawn;  ///< how names of balls begin that are drawn for each run
+};
+
+/// Why this is no expression, "" for one that is.
+std::string wrong_expression(const std::string& expression, const ResultNames& known);
 
 /// Parsed once, evaluated for many runs; each thread has its own.
 class ResultTable {

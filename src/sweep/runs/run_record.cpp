@@ -1,4 +1,4 @@
-#include "sweep/run_record.h"
+#include "sweep/runs/run_record.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

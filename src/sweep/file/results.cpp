@@ -1,14 +1,16 @@
-#include "sweep/results.h"
+#include "sweep/file/results.h"
 
 #include <fmt/format.h>
 #include <muParser.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include "core/failure.h"
 #include "scene/scalar.h"
-#include "sweep/measured.h"
+#include "sweep/file/measured.h"
 
 namespace carom {
 
@@ -80,20 +82,84 @@ void define(mu::Parser& parser, Subject& subject, double& duration, double& ball
     parser.DefineVar("balls", &balls);
 }
 
-/// The names in quotes, each of a pair by itself.
-std::vector<std::string> names_in(const std::string& expression) {
-    std::vector<std::string> names;
+/// What the name that a function is given may be.
+enum class NameKind { kBall, kBallOrAll, kPair };
+
+/// Of another function muParser says that it is none.
+NameKind kind_of(std::string_view function) {
+    constexpr std::string_view kOfBalls[] = {"peaks", "peak", "peak_time", "x",     "y",   "z",
+                                             "vx",    "vy",   "vz",        "speed", "spin"};
+    if (std::ranges::find(kOfBalls, function) != std::end(kOfBalls)) return NameKind::kBall;
+    return function == "energy" || function == "kinetic_energy" ? NameKind::kBallOrAll
+                                                                : NameKind::kPair;
+}
+
+/// A text in quotes, and the function in whose brackets it stands.
+struct QuotedName {
+    std::string function, text;
+};
+
+/// The word before the bracket that is the last character; "" for none.
+std::string function_before(std::string_view expression) {
+    const auto trim = [&] {
+        while (expression.ends_with(' ')) expression.remove_suffix(1);
+    };
+    trim();
+    if (!expression.ends_with('(')) return "";
+    expression.remove_suffix(1);
+    trim();
+    const std::size_t before = expression.find_last_not_of("abcdefghijklmnopqrstuvwxyz_");
+    return std::string(expression.substr(before == expression.npos ? 0 : before + 1));
+}
+
+std::vector<QuotedName> names_in(std::string_view expression) {
+    std::vector<QuotedName> names;
     std::size_t open = expression.find('"');
-    while (open != std::string::npos) {
+    while (open != expression.npos) {
         const std::size_t close = expression.find('"', open + 1);
-        if (close == std::string::npos) break;
-        const std::string text = expression.substr(open + 1, close - open - 1);
-        const std::size_t slash = text.find('/');
-        names.push_back(text.substr(0, slash));
-        if (slash != std::string::npos) names.push_back(text.substr(slash + 1));
+        if (close == expression.npos) break;
+        names.push_back({function_before(expression.substr(0, open)),
+                         std::string(expression.substr(open + 1, close - open - 1))});
         open = expression.find('"', close + 1);
     }
     return names;
+}
+
+/// Why there can be no such name; "" where there is.
+std::string wrong_name(const QuotedName& name, const ResultNames& known) {
+    const NameKind kind = kind_of(name.function);
+    const std::size_t slash = name.text.find('/');
+    if (kind != NameKind::kPair && (slash != std::string::npos || name.text == "*") &&
+        !(kind == NameKind::kBallOrAll && name.text == "*"))
+        return fmt::format("{}() is of one ball, not of {}", name.function,
+                           quoted_excerpt(name.text));
+    std::vector<std::string> names = known.balls;
+    if (kind == NameKind::kPair)
+        names.insert(names.end(), known.surfaces.begin(), known.surfaces.end());
+    std::vector<std::string> parts = {name.text.substr(0, slash)};
+    if (slash != std::string::npos) parts.push_back(name.text.substr(slash + 1));
+    for (const std::string& part : parts) {
+        if (part == "*" || std::ranges::find(names, part) != names.end()) continue;
+        const auto begins = [&](const std::string& prefix) { return part.starts_with(prefix); };
+        if (std::ranges::any_of(known.drawn, begins)) continue;
+        return fmt::format("there is no {} {}{}",
+                           kind == NameKind::kPair ? "ball or surface" : "ball",
+                           quoted_excerpt(part), suggestion(part, names));
+    }
+    return "";
+}
+
+/// muParser would set a variable, for all columns that follow.
+bool has_assignment(std::string_view expression) {
+    bool in_quotes = false;
+    for (std::size_t i = 0; i < expression.size(); ++i) {
+        const char c = expression[i], next = i + 1 < expression.size() ? expression[i + 1] : ' ';
+        if (c == '"') in_quotes = !in_quotes;
+        if (in_quotes) continue;
+        if (c == '=' && next != '=') return true;
+        if (next == '=' && std::string_view("=!<>").find(c) != std::string_view::npos) ++i;
+    }
+    return false;
 }
 
 }  // namespace
@@ -131,15 +197,11 @@ std::string result_reference_markdown() {
     return text + "\n";
 }
 
-std::string wrong_expression(const std::string& expression, const std::vector<std::string>& names,
-                             const std::vector<std::string>& prefixes) {
-    for (const std::string& name : names_in(expression)) {
-        if (name == "*" || std::find(names.begin(), names.end(), name) != names.end()) continue;
-        const auto begins = [&](const std::string& prefix) { return name.starts_with(prefix); };
-        if (std::any_of(prefixes.begin(), prefixes.end(), begins)) continue;
-        return fmt::format("there is no ball or surface {}{}", quoted_excerpt(name),
-                           suggestion(name, names));
-    }
+std::string wrong_expression(const std::string& expression, const ResultNames& known) {
+    for (const QuotedName& name : names_in(expression))
+        if (std::string wrong = wrong_name(name, known); !wrong.empty()) return wrong;
+    if (has_assignment(expression))
+        return "not an expression: '=' sets nothing here; '==' compares";
     Subject subject;
     double duration = 1, balls = 1;
     try {
@@ -147,6 +209,8 @@ std::string wrong_expression(const std::string& expression, const std::vector<st
         define(parser, subject, duration, balls);
         parser.SetExpr(expression);
         parser.Eval();
+        if (parser.GetNumResults() != 1)
+            return fmt::format("not an expression: these are {}", parser.GetNumResults());
     } catch (const mu::Parser::exception_type& error) {
         return fmt::format("not an expression: {}", error.GetMsg());
     }

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "sweep/run_maker.h"
-#include "sweep/run_many.h"
+#include "sweep/runs/run_maker.h"
+#include "sweep/runs/run_many.h"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep/run_record.h"
+#include "sweep/runs/run_record.h"
 
 namespace carom {
 

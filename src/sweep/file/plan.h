@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/report.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 

@@ -10,10 +10,10 @@
 
 #include "render/painter.h"
 #include "scene/scene.h"
-#include "sweep/plan.h"
-#include "sweep/results.h"
-#include "sweep/run_record.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/plan.h"
+#include "sweep/file/results.h"
+#include "sweep/file/sweep_file.h"
+#include "sweep/runs/run_record.h"
 
 namespace carom {
 

@@ -17,8 +17,8 @@
 
 #include "core/check.h"
 #include "core/failure.h"
-#include "sweep/run_maker.h"
-#include "sweep/run_many.h"
+#include "sweep/runs/run_maker.h"
+#include "sweep/runs/run_many.h"
 
 namespace carom {
 
@@ -109,7 +109,12 @@ class Worker {
         if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) fail();
         const pid_t parent = ::getpid();
         process_ = ::fork();
-        if (process_ < 0) fail();
+        if (process_ < 0) {
+            const int why = errno;
+            for (const int socket : pair) ::close(socket);
+            errno = why;
+            fail();
+        }
         if (process_ == 0) {
             ::close(pair[0]);
             set_up_worker(parent);
@@ -169,7 +174,18 @@ class Pool {
   public:
     explicit Pool(const ManyRuns& runs) : runs_(runs) {}
 
+    /// Whatever ends it, no run that is half made stays behind.
     void work() {
+        try {
+            make_all();
+        } catch (...) {
+            leave();
+            throw;
+        }
+    }
+
+  private:
+    void make_all() {
         const int count = std::min(runs_.jobs, static_cast<int>(runs_.todo.size()));
         for (int i = 0; i < count; ++i) add_worker();
         while (!workers_.empty()) {
@@ -179,7 +195,6 @@ class Pool {
         }
     }
 
-  private:
     bool has_more() const { return next_ < runs_.todo.size(); }
 
     void add_worker() {
@@ -208,11 +223,9 @@ class Pool {
         std::string reason;
         const std::optional<Answer> answer = worker.answer(reason);
         if (!answer) return replace(i, run);
-        if (answer->kind == Answer::kFatalOutput || answer->kind == Answer::kFatal) {
-            leave();
+        if (answer->kind == Answer::kFatalOutput || answer->kind == Answer::kFatal)
             throw Failure(answer->kind == Answer::kFatal ? FailureKind::kRun : FailureKind::kOutput,
                           reason);
-        }
         tell({run, answer->kind == Answer::kDone, reason});
         if (has_more())
             worker.begin(runs_.todo[next_++]);

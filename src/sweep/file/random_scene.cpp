@@ -1,4 +1,4 @@
-#include "sweep/random_scene.h"
+#include "sweep/file/random_scene.h"
 
 #include <fmt/format.h>
 
@@ -99,9 +99,9 @@ class PlacedBalls {
     }
     /// Cells that share a key share a list: that costs time, no truth.
     static std::uint64_t key(const Cell& c) {
-        return static_cast<std::uint64_t>(c.x * 73856093) ^
-               static_cast<std::uint64_t>(c.y * 19349663) ^
-               static_cast<std::uint64_t>(c.z * 83492791);
+        return static_cast<std::uint64_t>(c.x) * 73856093U ^
+               static_cast<std::uint64_t>(c.y) * 19349663U ^
+               static_cast<std::uint64_t>(c.z) * 83492791U;
     }
 
     double cell_m_;
@@ -142,8 +142,8 @@ class Placing {
         double smallest = std::numeric_limits<double>::infinity();
         for (const RandomBalls& group : sweep.balls)
             smallest = std::min(smallest, (group.high - group.low).maxCoeff());
-        constexpr double kCellsAlong = 16;
-        return smallest / kCellsAlong;
+        constexpr double kCellsAlong = 16, kLeast_m = 1e-9;  // numbers of cells are whole
+        return std::max(smallest / kCellsAlong, kLeast_m);
     }
     bool is_free(const Vec3& center, double radius, double gap) const {
         if (!placed_.is_free(center, radius + gap)) return false;

@@ -1,10 +1,11 @@
-#include "sweep/index.h"
+#include "sweep/runs/index.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -81,6 +82,27 @@ std::vector<Row> read_rows(const Sweep& sweep, const Plan& plan, const std::stri
     return rows;
 }
 
+/// Visits them in order; they are read by all processors, a block at a time.
+void visit_rows(const Sweep& sweep, const Plan& plan, const std::string& dir, std::int64_t first,
+                std::int64_t last, const std::function<void(const Row&)>& visit) {
+    constexpr std::int64_t kBlock = 4096;
+    for (; first < last; first += kBlock)
+        for (const Row& row : read_rows(sweep, plan, dir, first, std::min(first + kBlock, last)))
+            visit(row);
+}
+
+void count(const RunRecord& record, IndexCounts& counts) {
+    constexpr std::size_t kMostNamed = 10;
+    if (record.status == RunStatus::kDone) {
+        ++counts.done;
+    } else if (record.status == RunStatus::kMissing) {
+        ++counts.missing;
+    } else {
+        ++counts.failed;
+        if (counts.first_failed.size() < kMostNamed) counts.first_failed.push_back(record);
+    }
+}
+
 /// Sums over the runs that are done, in their order.
 struct Sums {
     Checksum motions, files;
@@ -99,28 +121,23 @@ struct Sums {
 
 }  // namespace
 
+IndexCounts count_runs(const Sweep& sweep, const Plan& plan, const std::string& dir,
+                       std::int64_t first, std::int64_t last) {
+    IndexCounts counts;
+    visit_rows(sweep, plan, dir, first, last, [&](const Row& row) { count(row.record, counts); });
+    return counts;
+}
+
 IndexCounts write_index(const Sweep& sweep, const Plan& plan, const std::string& dir,
                         const std::map<std::string, std::string>& versions) {
-    constexpr std::size_t kMostNamed = 10;
-    constexpr std::int64_t kBlock = 4096;  // read by all processors, then added in order
     IndexCounts counts;
     Sums sums;
     std::string index = header(sweep);
-    for (std::int64_t first = 0; first < plan.count(); first += kBlock) {
-        for (Row& row :
-             read_rows(sweep, plan, dir, first, std::min(first + kBlock, plan.count()))) {
-            index += row.text;
-            RunRecord& record = row.record;
-            if (record.status == RunStatus::kDone) {
-                ++counts.done;
-                sums.add(record);
-                continue;
-            }
-            ++(record.status == RunStatus::kMissing ? counts.missing : counts.failed);
-            if (record.status != RunStatus::kMissing && counts.first_failed.size() < kMostNamed)
-                counts.first_failed.push_back(std::move(record));
-        }
-    }
+    visit_rows(sweep, plan, dir, 0, plan.count(), [&](const Row& row) {
+        index += row.text;
+        count(row.record, counts);
+        if (row.record.status == RunStatus::kDone) sums.add(row.record);
+    });
     Json dataset = {{"carom", 1},
                     {"seed", sweep.seed},
                     {"runs", plan.count()},

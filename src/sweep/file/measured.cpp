@@ -1,4 +1,4 @@
-#include "sweep/measured.h"
+#include "sweep/file/measured.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "sweep/run_files.h"
+#include "sweep/runs/run_files.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "core/diagnostics.h"
 #include "scene/document.h"
 #include "scene/scene.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 

@@ -9,7 +9,7 @@
 #include "scene/document.h"
 #include "scene/scene.h"
 #include "sim/record/simulation_result.h"
-#include "sweep/sweep_file.h"
+#include "sweep/file/sweep_file.h"
 
 namespace carom {
 
