@@ -165,23 +165,49 @@ std::optional<FramesSound> make_sounds(const RenderOptions& options, const FilmS
     return sound_of_frames(std::move(sound), source.scene.film, source.frames);
 }
 
-int render(const RenderOptions& options, const Interrupt& interrupt) {
-    Stats stats;
+/// Refuses what no scene could make right.
+void check_request(const RenderOptions& options) {
     check_sounds_of(options);
     check_output_names(requests(options), {{"--stats", options.common.stats_path}},
                        {{"SCENE", options.scene}, {"--against", options.against.scene}});
     require_stats_writable(options.common);
     if (options.resume) require_resumable(requests(options));
-    if (options.layers.wanted()) {
-        if (options.resume)
-            throw Failure(FailureKind::kInput,
-                          "--resume looks at pictures, not at the layers beside them: draw what is "
-                          "missing with --frames and -y");
-        const std::vector<OutputRequest> outputs = requests(options);
-        frames_for_layers(outputs);
-        require_layer_libraries(options.layers.kinds());
-    }
+    if (!options.layers.wanted()) return;
+    if (options.resume)
+        throw Failure(FailureKind::kInput,
+                      "--resume looks at pictures, not at the layers beside them: draw what is "
+                      "missing with --frames and -y");
+    const std::vector<OutputRequest> outputs = requests(options);
+    frames_for_layers(outputs);
+    require_layer_libraries(options.layers.kinds());
+}
 
+/// Refuses what this scene cannot be made into.
+void check_scenes(const RenderOptions& options, const FilmScenes& scenes) {
+    check_films(requests(options), scenes.scene, options.encoding);
+    check_sound_tracks(scenes.scene, requests(options), options.sound, options.common.quiet);
+    if (scenes.second) require_second_untouched(options, scenes.second->file);
+}
+
+/// What --stats says is of the whole motion.
+GrowingMotion::Keep kept_motion(const RenderOptions& options) {
+    return options.common.stats_path.empty() ? GrowingMotion::Keep::kNeeded
+                                             : GrowingMotion::Keep::kAll;
+}
+
+/// Waits for the motion's end where it is asked for or there: a film of the first frames does
+/// without the rest.
+void end_growing(const RenderOptions& options, const Scene& scene, GrowingMotion& growing,
+                 SimulationResult& simulated, Stats& stats) {
+    if (options.common.stats_path.empty() && !growing.is_whole()) return;
+    simulated = growing.finish();
+    stats.sim_cpu_s += growing.cpu_s();
+    say_findings(options, scene, simulated, stats);
+}
+
+int render(const RenderOptions& options, const Interrupt& interrupt) {
+    Stats stats;
+    check_request(options);
     std::optional<FilmScenes> scenes;
     {
         const CpuTimer timer(stats.scene_cpu_s);
@@ -189,9 +215,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     }
     if (!scenes) return kExitInvalidScene;
     const Scene* scene = &scenes->scene;
-    check_films(requests(options), *scene, options.encoding);
-    check_sound_tracks(*scene, requests(options), options.sound, options.common.quiet);
-    if (scenes->second) require_second_untouched(options, scenes->second->file);
+    check_scenes(options, *scenes);
     if (is_done_early(options, *scene)) return nothing_to_do(options);
     if (!options.dry_run) prepare_folders(requests(options));
 
@@ -202,11 +226,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     std::optional<FilmedSecond> second;
     std::optional<GrowingMotion> growing;
     if (why_whole.empty()) {
-        // What --stats says is of the whole motion.
-        growing.emplace(*scene,
-                        options.common.stats_path.empty() ? GrowingMotion::Keep::kNeeded
-                                                          : GrowingMotion::Keep::kAll,
-                        interrupt.token());
+        growing.emplace(*scene, kept_motion(options), interrupt.token());
     } else {
         const CpuTimer timer(stats.sim_cpu_s);
         const ProgressMode mode = options.common.progress_mode();
@@ -237,12 +257,7 @@ int render(const RenderOptions& options, const Interrupt& interrupt) {
     if (stats.frames > 0)
         film(options, interrupt, source, motion, growing ? &*growing : nullptr,
              second ? &second->run : nullptr, stats);
-    // A film of the first frames does without the rest of the motion.
-    if (growing && (!options.common.stats_path.empty() || growing->is_whole())) {
-        simulated = growing->finish();
-        stats.sim_cpu_s += growing->cpu_s();
-        say_findings(options, *scene, simulated, stats);
-    }
+    if (growing) end_growing(options, *scene, *growing, simulated, stats);
     if (!options.common.stats_path.empty())
         write_stats(options.common, stats_json(stats, &simulated));
     if (!options.common.quiet) say_end(stats, options);
