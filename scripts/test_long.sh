@@ -27,6 +27,11 @@ cmake --build --preset release-tests --target carom
 CAROM=build/release-tests/carom CAROM_OTHER=build/dev/carom CAROM_SOURCE_DIR=. \
     python3 -B tests/cli/test_same_motion.py -v
 
+echo "test_long: errors of the benches"
+for bench in hard_cases simbenchmark gas_laws; do
+    "build/bench/bench/$bench" --quick >/dev/null
+done
+
 echo "test_long: library, Python module, the example project"
 scripts/setup.sh --group film --group package
 scripts/test_package.sh
