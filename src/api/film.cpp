@@ -11,6 +11,7 @@
 #include "report/filming.h"
 #include "report/impact_sound.h"
 #include "report/provenance.h"
+#include "report/scene_film.h"
 #include "scene/film_clock.h"
 
 namespace carom::v1 {
@@ -34,17 +35,11 @@ namespace {
 constexpr int kWaitingFrames = 1;  // between drawing and encoding, as the program has
 
 carom::FilmOptions film_options(const carom::Scene& scene, const FilmOptions& options) {
-    carom::FilmOptions film;
-    film.width_px = scene.film.width_px;
-    film.height_px = scene.film.height_px;
-    film.fps_numerator = scene.film.fps.numerator;
-    film.fps_denominator = scene.film.fps.denominator;
-    film.transparent = scene.background == Background::kTransparent;
+    carom::FilmOptions film = carom::film_options_of(scene);
     film.codec = options.codec;
     if (!options.quality.empty()) film.quality = options.quality;
     film.crf = options.crf;
     film.threads = options.threads;
-    film.title = scene.title;
     film.sound.wanted = scene.film.sound;
     film.comment = made_from(scene);
     film.existing = existing_of(options.overwrite);

@@ -15,6 +15,7 @@
 #include "media/output_folder.h"
 #include "media/threaded_sink.h"
 #include "report/provenance.h"
+#include "report/scene_film.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -131,19 +132,13 @@ void prepare_folders(const std::vector<OutputRequest>& outputs) {
 namespace {
 
 FilmOptions film_options(const Scene& scene, const EncodingOptions& encoding) {
-    FilmOptions film;
-    film.width_px = scene.film.width_px;
-    film.height_px = scene.film.height_px;
-    film.fps_numerator = scene.film.fps.numerator;
-    film.fps_denominator = scene.film.fps.denominator;
-    film.transparent = scene.background == Background::kTransparent;
+    FilmOptions film = film_options_of(scene);
     film.codec = encoding.codec.value_or("");
     film.pixels = encoding.pixels.value_or("");
     film.quality = encoding.quality;
     film.crf = encoding.crf;
     film.preset = encoding.preset;
     film.threads = encoding.threads;
-    film.title = scene.title;
     film.existing = encoding.existing;
     film.sound.wanted = scene.film.sound;
     return film;

@@ -11,6 +11,7 @@
 #include "media/output_file.h"
 #include "media/versions.h"
 #include "render/versions.h"
+#include "report/run_json.h"
 #include "sim/record/tunnelling.h"
 #include "sim/versions.h"
 
@@ -22,17 +23,6 @@ std::int64_t peak_rss_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
-nlohmann::ordered_json balls_json(const Motion& motion) {
-    nlohmann::ordered_json balls = nlohmann::ordered_json::object();
-    for (std::size_t i = 0; i < motion.ball_names.size(); ++i) {
-        nlohmann::ordered_json peaks = nlohmann::ordered_json::array();
-        for (const Peak& peak : motion.peaks[i])
-            peaks.push_back({{"time", peak.time}, {"height", peak.height}});
-        balls[motion.ball_names[i]] = {{"peaks", std::move(peaks)}};
-    }
-    return balls;
 }
 
 nlohmann::ordered_json second_json(const Stats::Second& second) {
@@ -122,16 +112,14 @@ std::string stats_json(const Stats& stats, const SimulationResult* result) {
     std::map<std::string, Effect> effects = stats.effects;
     if (result != nullptr)
         effects.insert(result->report.effects.begin(), result->report.effects.end());
-    json["effects"] = nlohmann::ordered_json::object();
-    for (const auto& [name, effect] : effects)
-        json["effects"][name] = {{"on", effect.on}, {"why", effect.why}};
+    json["effects"] = effects_json(effects);
     json["renderer"] = stats.renderer;
     json["versions"] = library_versions();
     json["peak_rss_bytes"] = peak_rss_bytes();
     if (result != nullptr) {
         json["motion_hash"] = fmt::format("{:016x}", result->motion.hash());
         if (stats.second) json["against"] = second_json(*stats.second);
-        json["balls"] = balls_json(result->motion);
+        json["balls"] = peaks_json(result->motion);
         if (stats.verdict)
             json["test"] = {{"passes", stats.verdict->passes},
                             {"rebounded", stats.verdict->rebounded},

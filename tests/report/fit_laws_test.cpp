@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "complaint.h"
 #include "core/failure.h"
 #include "report/fit_drag.h"
 #include "report/fit_over_speed.h"
@@ -17,21 +18,6 @@ namespace carom {
 namespace {
 
 constexpr double kGravity = 9.81;
-
-template <class Action>
-std::string complaint(const Action& action) {
-    try {
-        action();
-    } catch (const Failure& failure) {
-        EXPECT_EQ(FailureKind::kInput, failure.kind());
-        return failure.what();
-    }
-    return "";
-}
-
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 /// Heights of a ball with e = value v^(-exponent) (v in m/s), in a vacuum.
 std::vector<MeasuredDrop> power_drops(double value, double exponent,
@@ -45,6 +31,13 @@ std::vector<MeasuredDrop> power_drops(double value, double exponent,
 }
 
 const std::vector<double> kHeights = {0.2, 0.4, 0.8, 1.2, 1.8, 2.5, 3.5};
+
+/// 95 % of the trials, with 4 standard deviations of 10,000; where a known reading error is the
+/// larger of two uncertainties, somewhat more.
+void expect_95_percent(int held, int trials, bool known) {
+    EXPECT_GT(held, 0.941 * trials);
+    EXPECT_LT(held, (known ? 0.985 : 0.959) * trials);
+}
 
 TEST(FitOverSpeed, FindsThePowerLawOfItsHeights) {
     const SpeedFit fit = fit_over_speed(power_drops(0.9, 0.12, kHeights), {});
@@ -106,12 +99,8 @@ TEST(FitOverSpeed, TheTruthIsWithinItsInterval) {
         }
         fmt::print("{}: value {:.2f} %, exponent {:.2f} %\n", known ? "reading error" : "scatter",
                    100.0 * value / kTrials, 100.0 * exponent / kTrials);
-        // 95 %, with 4 standard deviations of 10,000 trials; the larger of two uncertainties covers
-        // somewhat more.
-        EXPECT_GT(value, 0.941 * kTrials);
-        EXPECT_GT(exponent, 0.941 * kTrials);
-        EXPECT_LT(value, (known ? 0.985 : 0.959) * kTrials);
-        EXPECT_LT(exponent, (known ? 0.985 : 0.959) * kTrials);
+        expect_95_percent(value, kTrials, known);
+        expect_95_percent(exponent, kTrials, known);
     }
 }
 
@@ -194,10 +183,8 @@ TEST(FitDrag, TheTruthIsWithinItsInterval) {
         }
         fmt::print("{}: restitution {:.2f} %, drag {:.2f} %\n", known ? "reading error" : "scatter",
                    100.0 * e / kTrials, 100.0 * drag / kTrials);
-        EXPECT_GT(e, 0.941 * kTrials);
-        EXPECT_GT(drag, 0.941 * kTrials);
-        EXPECT_LT(e, (known ? 0.985 : 0.959) * kTrials);
-        EXPECT_LT(drag, (known ? 0.985 : 0.959) * kTrials);
+        expect_95_percent(e, kTrials, known);
+        expect_95_percent(drag, kTrials, known);
     }
 }
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "complaint.h"
 #include "core/failure.h"
 #include "scene/reader.h"
 #include "scene/virtual_body.h"
@@ -29,22 +30,6 @@ Measurements drops_of(const std::vector<std::pair<double, double>>& heights) {
 }
 
 Measurements intervals_of(const std::vector<double>& times) { return {{}, times}; }
-
-/// What a Failure(kInput) says; empty without one.
-template <class Action>
-std::string complaint(const Action& action) {
-    try {
-        action();
-    } catch (const Failure& failure) {
-        EXPECT_EQ(FailureKind::kInput, failure.kind());
-        return failure.what();
-    }
-    return "";
-}
-
-bool holds(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 TEST(Fit, OneDropIsTheRootOfTheHeights) {
     const RestitutionFit fit = fit_restitution(drops_of({{1.8, 1.3}}), {});

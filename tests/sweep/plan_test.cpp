@@ -28,39 +28,32 @@ std::string rows(const Plan& plan) {
     return text;
 }
 
+std::string rows_of(const std::string& text) { return rows(Plan(SweepFiles(text).sweep())); }
+
 TEST(Plan, OfAGridChangesTheLastAxisFastest) {
-    const Sweep sweep = SweepFiles(
-                            "base: base.yaml\naxes:\n  balls.a.mass: [1, 2]\n"
-                            "  balls.a.position[2]: {from: 1, to: 2, steps: 3}\n")
-                            .sweep();
-    EXPECT_EQ(rows(Plan(sweep)), "1 1 ; 1 1.5 ; 1 2 ; 2 1 ; 2 1.5 ; 2 2 ; ");
+    EXPECT_EQ(rows_of("base: base.yaml\naxes:\n  balls.a.mass: [1, 2]\n"
+                      "  balls.a.position[2]: {from: 1, to: 2, steps: 3}\n"),
+              "1 1 ; 1 1.5 ; 1 2 ; 2 1 ; 2 1.5 ; 2 2 ; ");
 }
 
 TEST(Plan, OfAZipTakesColumnsTogetherAndRepeatsOneValue) {
-    const Sweep sweep = SweepFiles(
-                            "base: base.yaml\nmode: zip\naxes:\n  balls.a.mass: [1, 2, 3]\n"
-                            "  simulation.gravity[2]: [-5]\n"
-                            "  film.size: [[64, 64], [32, 32], [16, 16]]\n")
-                            .sweep();
-    EXPECT_EQ(rows(Plan(sweep)), "1 -5 [64, 64] ; 2 -5 [32, 32] ; 3 -5 [16, 16] ; ");
+    EXPECT_EQ(rows_of("base: base.yaml\nmode: zip\naxes:\n  balls.a.mass: [1, 2, 3]\n"
+                      "  simulation.gravity[2]: [-5]\n"
+                      "  film.size: [[64, 64], [32, 32], [16, 16]]\n"),
+              "1 -5 [64, 64] ; 2 -5 [32, 32] ; 3 -5 [16, 16] ; ");
 }
 
 TEST(Plan, RangesEndAtTheirEndsWithoutDebrisOfRounding) {
-    const Sweep sweep = SweepFiles(
-                            "base: base.yaml\nmode: zip\naxes:\n"
-                            "  balls.a.mass: {from: 0.1, to: 0.7, steps: 7}\n"
-                            "  balls.a.radius: {from: 0.001, to: 1000, steps: 7, scale: log}\n")
-                            .sweep();
-    EXPECT_EQ(rows(Plan(sweep)),
+    EXPECT_EQ(rows_of("base: base.yaml\nmode: zip\naxes:\n"
+                      "  balls.a.mass: {from: 0.1, to: 0.7, steps: 7}\n"
+                      "  balls.a.radius: {from: 0.001, to: 1000, steps: 7, scale: log}\n"),
               "0.1 0.001 ; 0.2 0.01 ; 0.3 0.1 ; 0.4 1 ; 0.5 10 ; 0.6 100 ; 0.7 1000 ; ");
 }
 
 TEST(Plan, RangesMayHaveSubnormalValues) {
-    const Sweep sweep =
-        SweepFiles(
-            "base: base.yaml\naxes:\n  balls.a.position[0]: {from: 0, to: 4e-308, steps: 5}\n")
-            .sweep();
-    EXPECT_EQ(rows(Plan(sweep)), "0 ; 1e-308 ; 2e-308 ; 3e-308 ; 4e-308 ; ");
+    EXPECT_EQ(
+        rows_of("base: base.yaml\naxes:\n  balls.a.position[0]: {from: 0, to: 4e-308, steps: 5}\n"),
+        "0 ; 1e-308 ; 2e-308 ; 3e-308 ; 4e-308 ; ");
 }
 
 TEST(Plan, OfALatinHypercubeMeetsEachPartOfEachAxisOnce) {

@@ -112,24 +112,25 @@ const Event* MeasuredRun::find_impact(std::string_view pair, double n) const {
     return place < 0 ? nullptr : all[static_cast<std::size_t>(place)];
 }
 
-double MeasuredRun::impact_time(std::string_view pair, double n) const {
+double MeasuredRun::of_impact(std::string_view pair, double n, double Event::*what) const {
     const Event* found = find_impact(pair, n);
-    return found == nullptr ? kNone : found->time;
+    return found == nullptr ? kNone : found->*what;
+}
+
+double MeasuredRun::impact_time(std::string_view pair, double n) const {
+    return of_impact(pair, n, &Event::time);
 }
 
 double MeasuredRun::approach_speed(std::string_view pair, double n) const {
-    const Event* found = find_impact(pair, n);
-    return found == nullptr ? kNone : found->approach_speed;
+    return of_impact(pair, n, &Event::approach_speed);
 }
 
 double MeasuredRun::separation_speed(std::string_view pair, double n) const {
-    const Event* found = find_impact(pair, n);
-    return found == nullptr ? kNone : found->separation_speed;
+    return of_impact(pair, n, &Event::separation_speed);
 }
 
 double MeasuredRun::impulse(std::string_view pair, double n) const {
-    const Event* found = find_impact(pair, n);
-    return found == nullptr ? kNone : found->impulse;
+    return of_impact(pair, n, &Event::impulse);
 }
 
 double MeasuredRun::event_time(std::string_view pair, EventKind kind) const {

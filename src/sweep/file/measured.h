@@ -43,6 +43,7 @@ class MeasuredRun {
     BallState state(std::string_view ball, double t) const;
     const Peak* find_peak(std::string_view ball, double n) const;
     const Event* find_impact(std::string_view pair, double n) const;
+    double of_impact(std::string_view pair, double n, double Event::*what) const;
     std::vector<std::size_t> chosen(std::string_view balls) const;
     double kinetic(std::size_t ball, double t) const;
     template <class Visit>

@@ -15,6 +15,8 @@
 #include "report/filming.h"
 #include "report/layer_files.h"
 #include "report/provenance.h"
+#include "report/run_json.h"
+#include "report/scene_film.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -30,17 +32,9 @@ void write_rows(const std::string& path, const std::function<void(const TextSink
 std::string stats_text(const SimulationResult& simulated) {
     nlohmann::ordered_json json = {{"steps", simulated.report.steps},
                                    {"impacts", simulated.report.impacts}};
-    json["effects"] = nlohmann::ordered_json::object();
-    for (const auto& [name, effect] : simulated.report.effects)
-        json["effects"][name] = {{"on", effect.on}, {"why", effect.why}};
+    json["effects"] = effects_json(simulated.report.effects);
     json["motion_hash"] = fmt::format("{:016x}", simulated.motion.hash());
-    json["balls"] = nlohmann::ordered_json::object();
-    for (std::size_t i = 0; i < simulated.motion.ball_names.size(); ++i) {
-        nlohmann::ordered_json peaks = nlohmann::ordered_json::array();
-        for (const Peak& peak : simulated.motion.peaks[i])
-            peaks.push_back({{"time", peak.time}, {"height", peak.height}});
-        json["balls"][simulated.motion.ball_names[i]] = {{"peaks", std::move(peaks)}};
-    }
+    json["balls"] = peaks_json(simulated.motion);
     return json.dump(2) + "\n";
 }
 
@@ -62,16 +56,10 @@ std::string scene_text(const Node& root) {
 
 /// One thread: others work on other runs, and a film is the same however many there are.
 FilmOptions film_options(const SweepOutputs& outputs, const Scene& scene) {
-    FilmOptions film;
-    film.width_px = scene.film.width_px;
-    film.height_px = scene.film.height_px;
-    film.fps_numerator = scene.film.fps.numerator;
-    film.fps_denominator = scene.film.fps.denominator;
-    film.transparent = scene.background == Background::kTransparent;
+    FilmOptions film = film_options_of(scene);
     film.quality = outputs.quality;
     if (outputs.quality == "medium") film.quality.reset();  // which not all kinds of films have
     film.threads = 1;
-    film.title = scene.title;
     film.comment = made_from(scene);
     return film;
 }
