@@ -242,8 +242,9 @@ CoupledPiece CoupledIslands::piece_of(int first_ball, double now, CoupledIsland&
     }
     guess.seconds = piece.next_seconds;
     guess.modes = modes;
-    if (now - guess.begun >= kIslandStep) guess.short_pieces = 0;
+    if (std::min(now - guess.begun, guess.lasts) >= kIslandStep) guess.short_pieces = 0;
     guess.begun = now;
+    guess.lasts = piece.seconds;
     if (piece.seconds < kIslandStep) ++guess.short_pieces;
     if (guess.short_pieces > kMostShortPieces) {
         guess.short_pieces = 0;

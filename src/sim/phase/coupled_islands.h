@@ -33,11 +33,11 @@ class CoupledIslands {
 
   private:
     struct PieceGuess {
-        double seconds = 0;         ///< a good length for the next piece ...
-        std::uint64_t modes = 0;    ///< ... while contacts and modes are these
-        double begun = -1;          ///< s, the last piece
-        int short_pieces = 0;       ///< shorter than a step, without one between that lasted
-        double stepped_until = -1;  ///< s
+        double seconds = 0;            ///< a good length for the next piece ...
+        std::uint64_t modes = 0;       ///< ... while contacts and modes are these
+        double begun = -1, lasts = 0;  ///< s, the last piece
+        int short_pieces = 0;          ///< shorter than a step, without one between that lasted
+        double stepped_until = -1;     ///< s
     };
     struct CoupledIsland {
         CoupledContacts system;
