@@ -249,6 +249,7 @@ CoupledPiece CoupledIslands::piece_of(int first_ball, double now, CoupledIsland&
     if (guess.short_pieces > kMostShortPieces) {
         guess.short_pieces = 0;
         guess.stepped_until = now + kRestlessSeconds;
+        ++log_.report.given_up;
     }
     return piece;
 }
