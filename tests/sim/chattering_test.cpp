@@ -112,17 +112,34 @@ balls:
   - {name: b7, radius: 0.036716644788590116, mass: 1, inertia: 0.48097372766640567, material: m2, position: [1.3086717487796762, 0.7500021257937755, -0.05810912991377992], velocity: [0.3161193386965876, -2.90860130301609, 3.349824312073172]}
 )";
 
+double energy_at(const Scene& scene, const Motion& motion, double t, bool before) {
+    double sum = 0;
+    for (std::size_t b = 0; b < scene.balls.size(); ++b) {
+        const Ball& ball = scene.balls[b];
+        const Trajectory& path = motion.balls[b];
+        const BallState s =
+            path.pieces()[path.piece_index(before ? std::nextafter(t, -1) : t)].at(t);
+        sum += ball.mass *
+               (0.5 * s.velocity.squaredNorm() +
+                0.5 * ball.inertia_factor * ball.radius * ball.radius * s.spin.squaredNorm() -
+                scene.simulation.gravity.dot(s.position - ball.position));
+    }
+    return sum;
+}
+
 /// J: over what it had been before, on both sides of the starts of all pieces.
 double rise_of_energy(const Scene& scene, const Motion& motion) {
     std::vector<double> starts;
     for (const Trajectory& ball : motion.balls)
-        for (const Piece& piece : ball.pieces()) starts.push_back(piece.start);
+        for (const Piece& piece : ball.pieces())
+            if (piece.start <= motion.duration) starts.push_back(piece.start);
     std::sort(starts.begin(), starts.end());
+    starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
     double least = INFINITY, rise = 0;
-    for (const double start : starts)
-        for (const double t : {std::nextafter(start, -1), start}) {
-            if (t < 0 || t > motion.duration) continue;
-            const double now = total_energy(scene, motion, t);
+    for (const double t : starts)
+        for (const bool before : {true, false}) {
+            if (before && t == 0) continue;
+            const double now = energy_at(scene, motion, t, before);
             rise = std::max(rise, now - least);
             least = std::min(least, now);
         }
