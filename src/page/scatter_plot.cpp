@@ -76,10 +76,10 @@ std::string scatter_plot(const ScatterPlot& plot) {
     across.widen();
     upwards.widen();
     const PlotFrame frame{across.low, across.high, upwards.low, upwards.high};
-    std::string text = fmt::format(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}", PlotFrame::kWidth,
-        PlotFrame::kHeight, escaped(label),
-        frame.axes((by_powers ? "log₁₀ " : "") + escaped(plot.across), escaped(plot.upwards)));
+    std::string text =
+        fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}",
+                    PlotFrame::kWidth, PlotFrame::kHeight, escaped(label),
+                    frame.axes((by_powers ? "log₁₀ " : "") + escaped(plot.across), ""));
     for (std::size_t i = 0; i < plot.series.size(); ++i)
         text += drawn(plot.series[i], frame, by_powers, plot.joined, i % kMostSeries);
     text += "</svg>\n";

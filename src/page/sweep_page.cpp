@@ -86,9 +86,8 @@ std::optional<std::size_t> series_column(const RunTable& table, const std::vecto
     return other;
 }
 
-std::string plots(const RunTable& table, const std::vector<Column>& results) {
-    std::vector<Column> axes;
-    for (std::size_t i = 0; i < table.axes; ++i) axes.emplace_back(table, table.axis(i));
+std::string plots(const RunTable& table, const std::vector<Column>& axes,
+                  const std::vector<Column>& results) {
     std::string text;
     std::size_t drawn = 0, left_out = 0;
     const auto add = [&](const Column& across, const Column& upwards,
@@ -159,14 +158,15 @@ std::string summary(const std::vector<Column>& results) {
     return table.text();
 }
 
-std::string all_runs(const RunTable& table, const std::vector<Column>& results) {
+std::string all_runs(const RunTable& table, const std::vector<Column>& axes,
+                     const std::vector<Column>& results) {
     std::vector<HtmlColumn> columns = {{"Run", true}};
-    for (std::size_t i = 0; i < table.axes; ++i) {
-        const Column axis(table, table.axis(i));
-        columns.push_back({escaped(axis.name), axis.numeric});
-    }
+    for (const Column& axis : axes) columns.push_back({escaped(axis.name), axis.numeric});
     for (const Column& result : results) columns.push_back({escaped(result.name), true});
-    columns.insert(columns.end(), {{"Motion's hash"}, {"Status"}, {"Reason"}});
+    columns.insert(columns.end(), {{"Motion's hash"}, {"Status"}});
+    const bool reasons = std::any_of(table.rows.begin(), table.rows.end(),
+                                     [&](const auto& row) { return !row[table.reason()].empty(); });
+    if (reasons) columns.push_back({"Reason"});
     const std::size_t shown = std::min(kMostRows, table.rows.size());
     std::string caption = "A click on a column's head sorts by it.";
     if (shown < table.rows.size())
@@ -176,13 +176,25 @@ std::string all_runs(const RunTable& table, const std::vector<Column>& results) 
     for (std::size_t row = 0; row < shown; ++row) {
         std::vector<std::string> cells;
         for (const std::string& cell : table.rows[row]) cells.push_back(escaped(cell));
+        cells.resize(columns.size());
         made.row(cells);
     }
     return made.text();
 }
 
+/// ": balls.a.radius 0.1, film.fps 30": of the axes that vary.
+std::string values_of(const RunTable& table, const std::vector<Column>& axes, std::size_t row) {
+    std::string text;
+    for (std::size_t i = 0; i < table.axes; ++i)
+        if (axes[i].varies())
+            text += fmt::format("{} {} {}", text.empty() ? ":" : ",", axes[i].name,
+                                table.rows[row][table.axis(i)]);
+    return text;
+}
+
 /// The first picture of a run; "" for none. Its size comes from the PNG's header.
-std::string picture_of(const RunTable& table, std::size_t row, std::size_t& bytes_left) {
+std::string picture_of(const RunTable& table, const std::vector<Column>& axes, std::size_t row,
+                       std::size_t& bytes_left) {
     const double run = number(table.rows[row].front());
     if (!(run >= 0)) return "";
     const fs::path path =
@@ -201,10 +213,8 @@ std::string picture_of(const RunTable& table, std::size_t row, std::size_t& byte
             value = value << 8 | static_cast<unsigned char>(png[i]);
         return value;
     };
-    std::string what = fmt::format("Run {}", table.rows[row].front());
-    for (std::size_t i = 0; i < table.axes; ++i)
-        what += fmt::format("{} {} {}", i == 0 ? ":" : ",", table.columns[table.axis(i)],
-                            table.rows[row][table.axis(i)]);
+    const std::string what =
+        fmt::format("Run {}{}", table.rows[row].front(), values_of(table, axes, row));
     return fmt::format(
         "<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\"><figcaption>{}"
         "</figcaption></figure>\n",
@@ -212,12 +222,12 @@ std::string picture_of(const RunTable& table, std::size_t row, std::size_t& byte
 }
 
 /// Of runs spread evenly over all.
-std::string pictures(const RunTable& table) {
+std::string pictures(const RunTable& table, const std::vector<Column>& axes) {
     std::string text;
     std::size_t bytes_left = kPictureBytes;
     const std::size_t count = std::min(kMostPictures, table.rows.size());
     for (std::size_t k = 0; k < count; ++k)
-        text += picture_of(table, k * table.rows.size() / count, bytes_left);
+        text += picture_of(table, axes, k * table.rows.size() / count, bytes_left);
     return text.empty() ? ""
                         : fmt::format(
                               "<h2 id=\"pictures\">Pictures of some runs</h2>\n<div class=\"many\">"
@@ -249,7 +259,8 @@ std::string sweep_page(const RunTable& table, const std::string& version) {
     for (const auto& [what, count] : table.counts)
         if (what != "runs" && count != "0")
             counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, what);
-    std::vector<Column> results;
+    std::vector<Column> axes, results;
+    for (std::size_t i = 0; i < table.axes; ++i) axes.emplace_back(table, table.axis(i));
     for (std::size_t i = 0; i < table.results; ++i) results.emplace_back(table, table.result(i));
     const EmbeddedFile script = overview_script();
     return page_head(title, {script.hash}) +
@@ -257,9 +268,10 @@ std::string sweep_page(const RunTable& table, const std::string& version) {
                "<header><h1>{}</h1>\n<p class=\"soft\">{}</p></header>\n<main>\n{}{}{}"
                "<h2 id=\"table\">All runs</h2>\n{}{}</main>\n<footer><p class=\"soft\">carom "
                "{}</p></footer>\n<script>{}</script>\n</body></html>\n",
-               escaped(title), escaped(counts), plots(table, results),
-               results.empty() ? "" : summary(results), pictures(table), all_runs(table, results),
-               facts(table), escaped(version), script.text);
+               escaped(title), escaped(counts), plots(table, axes, results),
+               results.empty() ? "" : "<h2 id=\"numbers\">Numbers</h2>\n" + summary(results),
+               pictures(table, axes), all_runs(table, axes, results), facts(table),
+               escaped(version), script.text);
 }
 
 }  // namespace carom
