@@ -289,7 +289,9 @@ bool Validator::section(Node& map, Section section) {
         const KeySpec* spec = table_.find(section, child.key);
         if (spec == nullptr) {
             std::string message = fmt::format("unknown key {}", quoted_excerpt(child.key));
-            if (child.key.find(':') != std::string::npos)
+            if (report_.is_full())
+                message.clear();
+            else if (child.key.find(':') != std::string::npos)
                 message += "; a space must follow the ':'";
             else
                 message += key_suggestion(table_, section, child.key);
