@@ -12,7 +12,7 @@ from program import CAROM, SMALL_SCENE, ProgramTest, run
 # Each would make a file `pwned` in the working folder, were it run, or move the cursor, were it printed raw.
 HOSTILE = ["$(touch pwned)", "`touch pwned`", "; touch pwned;", "| touch pwned", "'; touch pwned; '", '"; touch pwned; "',
            "a\ntouch pwned\n", '"; system("touch pwned"); "', "@'touch pwned'", "{touch,pwned}", "%s%n%n%n%999999999d",
-           "{0} {} {:999999999}", "\x1b[31m\x1b]0;pwned\x07", "\u202epwned", "<script>pwned</script>", "-o pwned", "--help",
+           "{0} {} {:999999999}", "\x1b[31m\x1b]0;pwned\x07", "\u202epwned", "<script>pwned<!--", "-o pwned", "--help",
            "..", "a\\b", "~", "*", "\xff".encode("latin-1").decode("utf-8", "surrogateescape")]
 
 SOURCE_OF_A_LIBRARY = """\

@@ -1,7 +1,8 @@
 // Preloaded into the program, this makes the system fail.
 //
 // FAULT_COUNTS=FILE counts the calls of each kind into FILE: one 64-bit number a kind, in the order
-// of kinds[] below, of this process and those that it starts.
+// of kinds[] below. Programs of other names that it starts are left alone: gnuplot does not notice a
+// write that fails, so that carom looks whether a plot has its end.
 // FAULT=KIND:N fails the N-th call of that kind, once: `write` with "No space left on device",
 // `open` with "Too many open files", `thread` with EAGAIN, `alloc`, `memory` and `map` with ENOMEM,
 // `library` as a library that is not there, the others with an input/output error.
@@ -40,6 +41,7 @@ static int failing_kind = -1;
 static int64_t failing_number;
 
 __attribute__((constructor)) static void begin(void) {
+    if (strcmp(program_invocation_short_name, "carom") != 0) return;
     const char *file = getenv("FAULT_COUNTS"), *fault = getenv("FAULT");
     if (file) {
         int (*real_open)(const char *, int, ...) = dlsym(RTLD_NEXT, "open");
