@@ -254,6 +254,7 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         add_picture_options(*action, options->common);
         add_backend_option(*action);
         add_progress_options(*action, options->common);
+        add_time_limit_option(*action, interrupt);
         action->callback([options, function, &run, &interrupt] {
             run = [options, function, &interrupt] { return function(*options, interrupt); };
         });

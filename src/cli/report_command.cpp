@@ -145,6 +145,7 @@ void add_report_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_flag("-y,--overwrite", options->common.overwrite,
                       "Replace a file that exists (default: it is kept, exit code 4)");
     add_progress_options(*command, options->common);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return report(*options, interrupt); };
     });

@@ -175,6 +175,7 @@ void add_view_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->type_name("N");
     add_scene_options(*command, options->common);
     add_backend_option(*command);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return view(*options, interrupt); };
     });
