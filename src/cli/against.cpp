@@ -79,6 +79,11 @@ std::optional<FilmScenes> load_film_scenes(const std::string& path, const Common
     return scenes;
 }
 
+std::string second_scene_file(const Scene& scene) {
+    const std::optional<Against> wanted = wanted_against(scene, {});
+    return wanted && wanted->scene != "-" ? wanted->scene : "";
+}
+
 std::optional<SceneResult> read_second(const Scene& scene, const std::string& text,
                                        const std::vector<Override>& overrides) {
     const std::optional<Against> wanted = wanted_against(scene, {});
