@@ -155,21 +155,24 @@ TEST(Library, TwoRunsAreShownWhereASceneNamesThemOrTheCallerDoes) {
     EXPECT_THROW(carom::still(plain, motion, 0, carom::Against{z, motion}), carom::Error);
 }
 
-// Straight ahead of the ball's middle, the nearest point is one radius nearer than the centre.
+// The ray of the pixel right below the picture's middle is t (s, 1, -s) from the eye, 3 m before a
+// ball of 0.1 m: (1 + 2 s^2) t^2 - 6 t + 9 - 0.01 = 0.
 TEST(Library, LayersSayWhatPixelsShow) {
     carom::SceneBuilder builder = small();
-    builder.set("camera", "{from: [0, -3, 0.6], to: [0, 0, 0.6]}").set("film.size", "[65, 37]");
+    builder.set("camera", "{from: [0, -3, 0.6], to: [0, 0, 0.6], fov_deg: 40}");
     const carom::Scene scene = builder.build();
     const carom::Motion motion = carom::simulate(scene);
     const auto layers = carom::layers(scene, motion, 0, {"segmentation", "depth", "normals"});
     ASSERT_EQ(3U, layers.size());
-    const std::size_t middle = 18 * 65 + 32;
+    const std::size_t middle = 18 * 64 + 32;
+    const double slope = std::tan(std::acos(-1) / 9) * 0.5 / 18, k = 1 + 2 * slope * slope;
+    const double t = (3 - std::sqrt(9 - k * 8.99)) / k;
     EXPECT_EQ("segmentation", layers[0].name);
     EXPECT_EQ(1, layers[0].ids.at(middle));
     EXPECT_TRUE(layers[0].values.empty());
-    EXPECT_NEAR(2.9, layers[1].values.at(middle), 1e-6);
+    EXPECT_NEAR(t, layers[1].values.at(middle), 1e-6);
     EXPECT_EQ(3, layers[2].channels);
-    EXPECT_NEAR(-1, layers[2].values.at(3 * middle + 1), 1e-6);
+    EXPECT_NEAR((t - 3) / 0.1, layers[2].values.at(3 * middle + 1), 1e-6);
     EXPECT_THROW(carom::layers(scene, motion, 0, {"deep"}), carom::Error);
     EXPECT_THROW(carom::layers(scene, motion, -1, {"depth"}), carom::Error);
     EXPECT_THROW(carom::layers(scene, motion, 0, {"depth"}, carom::Against{scene, motion, true}),
