@@ -69,6 +69,9 @@ TEST(Exposure, TakesAsManyInstantsAsPixelsOfWay) {
     EXPECT_EQ(16, exposure_count(12));
     EXPECT_EQ(17, exposure_count(16.5));
     EXPECT_EQ(kMostInstants, exposure_count(1e6));
+    EXPECT_EQ(4, sweep_count(4));
+    EXPECT_EQ(8, sweep_count(17));
+    EXPECT_EQ(kMostInstants / 4, sweep_count(kMostInstants));
     const auto instants = exposure_instants(exposure, 8);
     ASSERT_EQ(8u, instants.size());
     EXPECT_NEAR(5 - 7.0 / 16 / 120, instants.front(), 1e-12);  // the middle of the first eighth
@@ -269,6 +272,67 @@ TEST(MotionBlur, FewInstantsLeaveLittleOfEach) {
                    exposure_count(way), largest);
         EXPECT_LE(largest, 8);
         EXPECT_GT(changed, 50) << "nothing was blurred";
+    }
+}
+
+// However few parts the time is divided into: balls of all styles that fly and turn fast, with
+// their shadows and images, and one that bounces meanwhile, are as in the mean of many instants.
+TEST(MotionBlur, IsNearTheMeanOfManyInstants) {
+    constexpr LookStyle kStyles[] = {
+        LookStyle::kPlain,    LookStyle::kStriped, LookStyle::kBasketball, LookStyle::kVolleyball,
+        LookStyle::kFootball, LookStyle::kTennis,  LookStyle::kTableTennis};
+    const double t = 0.5;
+    for (const LookStyle style : kStyles) {
+        for (const bool mirror : {false, true}) {
+            const auto made = [&](double shutter_deg) {
+                HandMadeScene scene;
+                scene.camera({0, -4, 0.6}, {0, 0, 0.4});
+                const int floor = scene.look(LookStyle::kPlain, {0.8, 0.8, 0.8});
+                if (mirror) scene.scene.looks[static_cast<std::size_t>(floor)].reflection = 0.5;
+                scene.surface(PlaneShape{}, floor);
+                const int look = scene.look(style, {0.8, 0.3, 0.1}, {0.9, 0.9, 0.85});
+                const Vec3 fast(9, 1, 1), slow(-1, 0, 2);
+                scene.ball(Vec3(-0.5, 0, 0.5) - t * fast, 0.3, look, {5, 20, 10}, fast);
+                scene.ball(Vec3(0.8, 0.2, 0.4) - t * slow, 0.25, look, {0, 3, 25}, slow);
+                // Down to the floor at t, and up again.
+                scene.ball({-1.1, 0.4, 0.2 + t * 5}, 0.2, look, Vec3::Zero(), {0, 0, -5});
+                Piece up;
+                up.start = t;
+                up.position = {-1.1, 0.4, 0.2};
+                up.velocity = {0, 0, 4};
+                scene.motion.balls.back().append(up);
+                scene.scene.film.fps = {24, 1};
+                scene.scene.film.shutter_deg = shutter_deg;
+                return scene;
+            };
+            const HandMadeScene open = made(180), sharp = made(0);
+            const Image picture = open.paint(kWidth, kHeight, t);
+            Painter painter(sharp.scene, sharp.motion, {kWidth, kHeight});
+            const Exposure exposure(open.scene.film, 10, t);
+            constexpr int kMany = 256;
+            std::vector<double> sum(picture.bgra.size());
+            Image one;
+            for (const double instant : exposure_instants(exposure, kMany)) {
+                painter.paint(instant, one);
+                for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += linear_of(one.bgra[i]);
+            }
+            int largest = 0;
+            std::size_t beyond = 0, blurry = 0;
+            for (std::size_t i = 0; i < sum.size(); ++i) {
+                if (i % 4 == 3) continue;
+                const int mean = encoded_of(sum[i] / kMany);
+                const int off = std::abs(mean - int{picture.bgra[i]});
+                largest = std::max(largest, off);
+                beyond += off > 3 ? 1 : 0;
+                blurry += std::abs(mean - int{one.bgra[i]}) > 20 ? 1 : 0;
+            }
+            fmt::print(
+                "style {}{}: largest difference to {} instants {} of 255, {} values off by "
+                "more than 3\n",
+                static_cast<int>(style), mirror ? ", mirrored" : "", kMany, largest, beyond);
+            EXPECT_LE(largest, 8);
+            EXPECT_GT(blurry, 1000u) << "nothing was blurred";
+        }
     }
 }
 

@@ -83,13 +83,20 @@ void OverlayPainter::set_view(const View& view) {
 }
 
 Image OverlayPainter::background_layer() const {
-    Image picture;
+    Image layer;
+    draw_background_layer(layer);
+    return layer;
+}
+
+bool OverlayPainter::draw_background_layer(Image& layer) const {
+    bool drawn = false;
     for (const auto& element : background_) {
         if (element->rect().empty()) continue;
-        if (picture.width_px == 0) picture = Image(view_.width_px(), view_.height_px());
-        element->draw(0, picture);
+        if (layer.width_px == 0) layer = Image(view_.width_px(), view_.height_px());
+        element->draw(0, layer);
+        drawn = true;
     }
-    return picture;
+    return drawn;
 }
 
 PixelRect OverlayPainter::update_moving_layer(double t) {

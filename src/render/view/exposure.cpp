@@ -40,6 +40,11 @@ int exposure_count(double way_px) {
     return static_cast<int>(std::clamp(wanted, kFewestInstants, double{kMostInstants}));
 }
 
+int sweep_count(int count) {
+    constexpr int kFewest = 8;  // what a part leaves of itself in the mean is an eighth
+    return count <= kFewest ? count : std::max(kFewest, (count + 3) / 4);
+}
+
 std::vector<double> exposure_instants(const Exposure& exposure, int count) {
     std::vector<double> instants;
     for (int i = 0; i < count; ++i) instants.push_back(exposure.at((i + 0.5) / count));
