@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "render/blend/linear_layer.h"
 #include "render/blend/picture_layer.h"
 #include "render/view/view_space.h"
 
@@ -45,8 +46,8 @@ std::vector<const GlTexture*> BackgroundPicture::targets_without_edges() const {
     return targets;
 }
 
-void BackgroundPicture::lay_over(const Image& layer, const PixelRect& part) {
-    carom::lay_over(*gl_, layer, part, color_framebuffer_, color());
+void BackgroundPicture::lay_over(const Image& layer) {
+    carom::lay_over(*gl_, layer, filled_part(layer), color_framebuffer_, color());
 }
 
 std::vector<TileBound> BackgroundPicture::tile_bounds(const View& view, int tile_px) const {

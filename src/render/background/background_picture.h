@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/image.h"
-#include "core/pixel_rect.h"
 #include "core/types.h"
 #include "render/gl/gl.h"
 #include "render/view/camera.h"
@@ -40,9 +39,8 @@ class BackgroundPicture {
     /// The same of a drawing where no edge is.
     std::vector<const GlTexture*> targets_without_edges() const;
 
-    /// Lays a part of a picture of the same size over the colours, in linear light: layers that do
-    /// not move.
-    void lay_over(const Image& layer, const PixelRect& part);
+    /// Lays a picture of the same size over the colours, in linear light: layers that do not move.
+    void lay_over(const Image& layer);
 
     /// A framebuffer with the colours alone: the source of each frame's copy.
     const GlFramebuffer& color_framebuffer() const { return color_framebuffer_; }

@@ -83,20 +83,13 @@ void OverlayPainter::set_view(const View& view) {
 }
 
 Image OverlayPainter::background_layer() const {
-    Image layer;
-    draw_background_layer(layer);
-    return layer;
-}
-
-bool OverlayPainter::draw_background_layer(Image& layer) const {
-    bool drawn = false;
+    Image picture;
     for (const auto& element : background_) {
         if (element->rect().empty()) continue;
-        if (layer.width_px == 0) layer = Image(view_.width_px(), view_.height_px());
-        element->draw(0, layer);
-        drawn = true;
+        if (picture.width_px == 0) picture = Image(view_.width_px(), view_.height_px());
+        element->draw(0, picture);
     }
-    return drawn;
+    return picture;
 }
 
 PixelRect OverlayPainter::update_moving_layer(double t) {

@@ -40,9 +40,6 @@ class OverlayPainter {
 
     /// The ruler, drawn at each call and not kept. Empty picture if nothing is to be drawn.
     Image background_layer() const;
-    /// The same into a picture that is transparent, or has no pixels yet; false if nothing is
-    /// drawn.
-    bool draw_background_layer(Image& layer) const;
 
     /// The trails and marks of peaks at t, premultiplied on transparent, kept up to date in one
     /// picture of the film's size; returns the rectangle that changed since the last call.

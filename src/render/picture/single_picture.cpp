@@ -20,7 +20,6 @@
 #include "render/balls/drawn_balls.h"
 #include "render/balls/shadow_tiles.h"
 #include "render/blend/alpha_encoding.h"
-#include "render/blend/linear_layer.h"
 #include "render/blend/picture_mean.h"
 #include "render/gl/driver_clock.h"
 #include "render/gl/offscreen.h"
@@ -101,7 +100,7 @@ class SinglePicture : public Picture {
         if (!setup_.moving) {
             draw_cpu_s_ += drawn.get();
             context_.make_current();  // another one was, if the thread was this one
-            if (layer.width_px != 0) background_->lay_over(layer, filled_part(layer));
+            if (layer.width_px != 0) background_->lay_over(layer);
             // For a few pictures it is not worth the while to find out.
             if (passes_->has_shadows() && !options.few_pictures)
                 passes_->see_in_tiles(setup_.view, setup_.lights, seen_in_tiles());
@@ -353,16 +352,9 @@ class SinglePicture : public Picture {
         return true;
     }
 
-    /// Of a view that is another one at each call.
     void lay_background_layer() {
-        const PixelRect& old = background_layer_filled_;
-        for (int y = old.top; y < old.bottom; ++y)
-            std::fill_n(background_layer_.row(y) + std::ptrdiff_t{4} * old.left,
-                        std::ptrdiff_t{4} * old.width(), std::uint8_t{0});
-        background_layer_filled_ = {};
-        if (!setup_.overlay.draw_background_layer(background_layer_)) return;
-        background_layer_filled_ = filled_part(background_layer_);
-        background_->lay_over(background_layer_, background_layer_filled_);
+        const Image layer = setup_.overlay.background_layer();
+        if (layer.width_px != 0) background_->lay_over(layer);
     }
 
     const Scene& scene_;
@@ -383,9 +375,7 @@ class SinglePicture : public Picture {
     std::optional<BackgroundDrawing> drawing_;  ///< again and again, where the camera moves
     std::optional<FramePasses> passes_;
     MovingLayer layer_{gl_, setup_.overlay, setup_.moving};
-    Image background_layer_;               ///< of a camera that moves; transparent but for ...
-    PixelRect background_layer_filled_;    ///< ... this part
-    std::optional<FrameChanges> changes_;  ///< where the camera stands, of a film
+    std::optional<FrameChanges> changes_;        ///< where the camera stands, of a film
     const std::uint8_t* kept_pixels_ = nullptr;  ///< of the picture that paint_next() goes on with
     std::vector<PixelRect> blurred_;             ///< what was averaged in it, and around
     std::optional<PictureMean> mean_;            ///< where there is a shutter
