@@ -13,6 +13,8 @@
 #include "hand_made_scene.h"
 #include "render/background/background_drawing.h"
 #include "render/gl/offscreen.h"
+#include "render/tile/screen_tiles.h"
+#include "render/tile/tile_mask.h"
 
 namespace carom {
 namespace {

@@ -332,7 +332,11 @@ class SinglePicture : public Picture {
             return true;
         }
         TileOwners owners(width_px_, height_px_, ShadowTiles::kTilePx, blur.ways_px.size());
-        const int marked = sweep_count(blur.count);
+        // Lines that a way bends away from would not mark all that is drawn.
+        ExposureGroup all;
+        all.count = blur.count;
+        all.bodies.assign(blur.ways_px.size(), true);
+        const int marked = sweeps_of(all, blur.exposure);
         for (int i = 0; i < marked; ++i)
             passes_->mark(balls_during(open_part(blur.exposure, i, marked)), setup_.view, owners);
         for (const ExposureGroup& group : sort_exposure(owners, blur.ways_px, blur.count)) {

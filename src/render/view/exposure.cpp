@@ -41,8 +41,11 @@ int exposure_count(double way_px) {
 }
 
 int sweep_count(int count) {
-    constexpr int kFewest = 8;  // what a part leaves of itself in the mean is an eighth
-    return count <= kFewest ? count : std::max(kFewest, (count + 3) / 4);
+    // What a part leaves of its error in the mean is a twelfth: codes of 255, as of instants.
+    constexpr int kFewest = 12;
+    return count <= kFewest ? count : std::max(kFewest, static_cast<int>(std::ceil(count * part)));
+}
+return count <= kFewest ? count : std::max(kFewest, (count + 3) / 4);
 }
 
 std::vector<double> exposure_instants(const Exposure& exposure, int count) {
