@@ -24,6 +24,7 @@ import json
 import os
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -146,7 +147,7 @@ def turn_ball(still, facts, chance, folder):
     spin = spin + np.deg2rad(1) / still.time * axis
     result = run("golden", "update", still.scene, "--time", still.time, "--dir", folder, *SIZE, "-q",
                  "--set", f"balls.{ball['name']}.spin=[{', '.join(map(repr, map(float, spin)))}]", allowed=(0, 2, 3))
-    return carom.read_png(folder / f"{still.name}.png") if result.returncode == 0 else None
+    return folder / f"{still.name}.png" if result.returncode == 0 else None
 
 
 def change_letter(still, facts, chance, folder):
@@ -154,7 +155,7 @@ def change_letter(still, facts, chance, folder):
     other = chance.choice([c for c in LETTERS if c != CAPTION[at]])
     run("golden", "update", still.scene, "--time", still.time, "--dir", folder, *SIZE, "-q",
         "--set", f"overlay.caption={json.dumps(CAPTION[:at] + other + CAPTION[at + 1:])}")
-    return carom.read_png(folder / f"{still.name}.png")
+    return folder / f"{still.name}.png"
 
 
 ON_PICTURE = {"ball": move_ball, "colour": change_colour, "shadow": change_shadow}
@@ -162,13 +163,15 @@ BY_PROGRAM = {"spin": turn_ball, "letter": change_letter}
 
 
 def mutate(kind, still, original, facts, chance, work):
-    """A changed picture, or None where none could be made of this still."""
+    """The path of a changed picture, as the program wrote it where it did; None where none could be made."""
+    folder = pathlib.Path(tempfile.mkdtemp(dir=work))
     if kind in ON_PICTURE:
-        changed = ON_PICTURE[kind](original, facts, chance)
+        changed, path = ON_PICTURE[kind](original, facts, chance), folder / f"{still.name}.png"
+        if changed is not None:
+            carom.write_png(path, changed)
     else:
-        folder = pathlib.Path(tempfile.mkdtemp(dir=work))
-        changed = BY_PROGRAM[kind](still, facts, chance, folder)
-    return None if changed is None or carom.compare(changed, original).largest <= 1 else changed
+        path = changed = BY_PROGRAM[kind](still, facts, chance, folder)
+    return None if changed is None or carom.compare(path, original).largest <= 1 else path
 
 
 def main():
@@ -215,7 +218,7 @@ def main():
                     if changed is None:
                         passed_by += 1
                         continue
-                    carom.write_png(round_folder / f"{still.name}.png", changed)
+                    shutil.copy(changed, round_folder)
                 names = {p.stem for p in round_folder.iterdir()}
                 outcomes = check(scenes, round_folder, report, *more)
                 misses = [name for name in sorted(names) if outcomes[name]["outcome"] != "different"]

@@ -168,12 +168,50 @@ void add_motion(py::module_& module) {
     });
 }
 
+/// rows x columns, or rows x columns x channels.
+py::array array_of(const carom::Layer& layer) {
+    const auto array = [&layer](const auto& values) -> py::array {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        std::vector<py::ssize_t> shape{layer.height, layer.width};
+        if (layer.channels > 1) shape.push_back(layer.channels);
+        return py::array_t<Value>(shape, values.data());
+    };
+    return layer.ids.empty() ? array(layer.values) : array(layer.ids);
+}
+
+void add_second_run(py::module_& module) {
+    using carom::Against;
+    py::class_<Against>(module, "Against")
+        .def(py::init<carom::Scene, carom::Motion, bool>())
+        .def_readonly("scene", &Against::scene)
+        .def_readonly("motion", &Against::motion)
+        .def_readonly("side", &Against::side);
+    module.def("second_run", [](const carom::Scene& scene, std::optional<py::function> progress) {
+        Watch watch(std::move(progress));
+        return watch.run([&] { return carom::second_run(scene, watch.control()); });
+    });
+    module.def("layers",
+               [](const carom::Scene& scene, const carom::Motion& motion, double time,
+                  const std::vector<std::string>& names, const std::optional<Against>& against) {
+                   std::vector<carom::Layer> all;
+                   {
+                       py::gil_scoped_release release;
+                       all = carom::layers(scene, motion, time, names, against);
+                   }
+                   py::dict arrays;
+                   for (const carom::Layer& layer : all)
+                       arrays[py::str(layer.name)] = array_of(layer);
+                   return arrays;
+               });
+}
+
 void add_pictures(py::module_& module) {
-    module.def("still", [](const carom::Scene& scene, const carom::Motion& motion, double time) {
+    module.def("still", [](const carom::Scene& scene, const carom::Motion& motion, double time,
+                           const std::optional<carom::Against>& against) {
         carom::Picture picture;
         {
             py::gil_scoped_release release;
-            picture = carom::still(scene, motion, time);
+            picture = carom::still(scene, motion, time, against);
         }
         return array_of(picture);
     });
@@ -186,15 +224,17 @@ void add_pictures(py::module_& module) {
         return py::make_tuple(d.same_size, d.largest, d.differing_pixels, d.pixels, d.psnr_db,
                               d.ssim);
     });
-    module.def("film",
-               [](const carom::Scene& scene, const carom::Motion& motion, const std::string& path,
-                  const std::string& codec, const std::string& quality, std::optional<int> crf,
-                  int threads, bool overwrite, std::optional<py::function> progress) {
-                   const carom::FilmOptions options{codec, quality, crf, threads, overwrite};
-                   Watch watch(std::move(progress));
-                   return watch.run(
-                       [&] { return carom::film(scene, motion, path, options, watch.control()); });
-               });
+    module.def("film", [](const carom::Scene& scene, const carom::Motion& motion,
+                          const std::string& path, const std::string& codec,
+                          const std::string& quality, std::optional<int> crf, int threads,
+                          bool overwrite, std::optional<py::function> progress,
+                          const std::optional<carom::Against>& against,
+                          const std::vector<std::string>& layers) {
+        const carom::FilmOptions options{codec, quality, crf, threads, overwrite, against, layers};
+        Watch watch(std::move(progress));
+        return watch.run(
+            [&] { return carom::film(scene, motion, path, options, watch.control()); });
+    });
 }
 
 py::tuple tuple_of(const carom::Fit& fit) {
@@ -220,6 +260,7 @@ PYBIND11_MODULE(_carom, module) {
     });
     add_scene(module);
     add_motion(module);
+    add_second_run(module);
     add_pictures(module);
     module.def(
         "fit_drops", [](const std::vector<double>& drops, const std::vector<double>& rebounds,

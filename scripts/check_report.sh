@@ -34,12 +34,18 @@ for k in $(seq 1 20); do
 done
 echo "{\"stills\":[$list]}" >"$folder/stills.json"
 
-(cd "$folder" && cat >.htmlvalidate.json <<'JSON' && npx html-validate report.html)
+# Pages with a table of runs: of several scenes, and of a sweep.
+"$program" report scenes/figure8.yaml "$scene" -o "$folder/overview.html" -y -q
+"$program" sweep scenes/sweeps/restitution.yaml -o "$folder/sweep" -q
+"$program" report "$folder/sweep" -o "$folder/sweep.html" -y -q
+
+(cd "$folder" && cat >.htmlvalidate.json <<'JSON' && npx html-validate report.html overview.html sweep.html)
 {"extends": ["html-validate:standard"],
  "rules": {"long-title": "off", "no-implicit-button-type": "off", "no-inline-style": "error",
            "require-sri": "off", "void-style": "off", "prefer-native-element": "off"}}
 JSON
 echo "ok   html-validate"
 node tests/browser/report_checks.js "$browser" "$folder/report.html" "$folder" "$folder/stills.json"
+node tests/browser/table_checks.js "$browser" "$folder" "$folder/overview.html" "$folder/sweep.html"
 cp "$scene" "$folder/edited.yaml"
 node tests/browser/view_checks.js "$browser" "$program" "$folder/edited.yaml" "$folder"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what packages.txt lists and this machine lacks, then builds.
-#   scripts/setup.sh [--group film|test|bench|long|package]... [--preset PRESET]... [--only-packages]
+#   scripts/setup.sh [--group film|test|bench|coverage|fuzz|long|package]... [--preset PRESET]... [--only-packages]
 # Without options: group film, preset release. Takes seconds when nothing has changed.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh --group film --group test --group bench --group long \
+scripts/setup.sh --group film --group test --group bench --group fuzz --group long \
     --preset dev --preset tsan --preset release-tests --preset bench
 
 echo "test_long: format"
@@ -26,6 +26,19 @@ echo "test_long: the same motion in Debug and Release"
 cmake --build --preset release-tests --target carom
 CAROM=build/release-tests/carom CAROM_OTHER=build/dev/carom CAROM_SOURCE_DIR=. \
     python3 -B tests/cli/test_same_motion.py -v
+
+echo "test_long: each call to the system fails once"
+cmake --build --preset release-tests --target faults
+CAROM=build/release-tests/carom CAROM_FAULTS=build/release-tests/tests/faults/faults.so \
+    python3 -B tests/faults/fault_points.py
+
+echo "test_long: fuzzing, two minutes a target"
+scripts/fuzz.sh 2
+
+echo "test_long: the hardened release"
+cmake --preset release
+cmake --build --preset release
+scripts/check_hardening.sh --program build/release/carom
 
 echo "test_long: errors of the benches"
 for bench in hard_cases simbenchmark gas_laws; do

@@ -1,11 +1,12 @@
 // Films and frames.
 #pragma once
 
-#include <carom/motion.h>
+#include <carom/second_run.h>
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 CAROM_NAMESPACE_BEGIN
 
@@ -14,8 +15,10 @@ struct FilmOptions {
     std::string codec{};
     std::string quality{};  ///< draft, medium, high
     std::optional<int> crf{};
-    int threads = 0;         ///< of the encoder; 0: one per processor
-    bool overwrite = false;  ///< else a file that exists is an Error
+    int threads = 0;                    ///< of the encoder; 0: one per processor
+    bool overwrite = false;             ///< else a file that exists is an Error
+    std::optional<Against> against{};   ///< else what the scene names, if it does
+    std::vector<std::string> layers{};  ///< files beside PNG frames, by name (layers.h)
 };
 
 /// Draws all frames into `path`: a film by its extension (.mp4, .mkv, .webm, .gif ...), or PNGs

@@ -1,9 +1,10 @@
 // Single pictures: drawn, read, written, compared.
 #pragma once
 
-#include <carom/motion.h>
+#include <carom/second_run.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,12 @@ struct Picture {
     std::vector<std::uint8_t> rgba{};  ///< height * width * 4 bytes
 };
 
-/// Draws one instant [s], in the scene's size. Needs no display; throws Error where OSMesa is
-/// not there, for an instant outside of the motion, and for a scene that shows a second run
-/// (`against`).
-CAROM_API Picture still(const Scene& scene, const Motion& motion, double time);
+/// Draws one instant [s], in the scene's size, with a second run where one is given or the scene
+/// names one (which is then simulated at each call: second_run() does it once for many). Needs no
+/// display. Throws Error where neither OSMesa nor EGL is there, for an instant outside of the
+/// motion, and for runs that cannot be shown together.
+CAROM_API Picture still(const Scene& scene, const Motion& motion, double time,
+                        const std::optional<Against>& against = {});
 
 /// A new file appears under its name when it is whole. An existing one is replaced.
 CAROM_API void write_png(const std::string& path, const Picture& picture);

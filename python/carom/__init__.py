@@ -16,8 +16,9 @@ from collections import namedtuple as _namedtuple
 from . import _carom
 from ._carom import Diagnostic, Error, Motion as _Motion, Scene, SceneError, __version__
 
-__all__ = ["Diagnostic", "Difference", "Error", "Fit", "Motion", "Scene", "SceneError", "States",
-           "compare", "film", "fit", "load", "read_png", "simulate", "still", "write_png", "EVENT_DTYPE"]
+__all__ = ["Against", "Diagnostic", "Difference", "Error", "Fit", "Motion", "Scene", "SceneError", "States",
+           "compare", "film", "fit", "layers", "load", "read_png", "second_run", "simulate", "still", "write_png",
+           "EVENT_DTYPE"]
 
 for _kind in (Diagnostic, Error, Scene, SceneError):
     _kind.__module__ = __name__  # as users name them
@@ -132,17 +133,63 @@ def simulate(scene, progress=None):
     return Motion(_carom.simulate(scene, progress))
 
 
-def still(scene, motion, time):
-    """The picture of an instant: rows x columns x 4 (R, G, B, A), uint8."""
-    return _carom.still(scene, motion._inner, time)
+class Against(_namedtuple("Against", "scene motion view", defaults=("ghost",))):
+    """A run to show with the first: as ghosts in the same picture, or with the view "side" in a half of its own.
+
+    Balls of equal names are compared; camera, film and overlay are the first scene's.
+    """
+
+    __slots__ = ()
 
 
-def film(scene, motion, path, *, codec="", quality="", crf=None, threads=0, overwrite=False, progress=None):
+def second_run(scene, progress=None):
+    """The run that the scene's own key `against` names, simulated: an Against, or None without the key.
+
+    `still`, `film` and `layers` do this at each call; once is enough for many.
+    """
+    inner = _carom.second_run(scene, progress)
+    return inner and Against(inner.scene, Motion(inner.motion), "side" if inner.side else "ghost")
+
+
+def _against(against):
+    if against is None:
+        return None
+    scene, motion, view = Against(*against)
+    if view not in ("ghost", "side"):
+        raise ValueError(f"a second run is shown as 'ghost' or 'side', not {view!r}")
+    return _carom.Against(scene, motion._inner, view == "side")
+
+
+def _names(layers):
+    return [layers] if isinstance(layers, str) else list(layers)
+
+
+def still(scene, motion, time, *, against=None):
+    """The picture of an instant: rows x columns x 4 (R, G, B, A), uint8.
+
+    `against`: a second run to show, an Against or (scene, motion); else what the scene names, if it does.
+    """
+    return _carom.still(scene, motion._inner, time, _against(against))
+
+
+def layers(scene, motion, time, names, *, against=None):
+    """What the pixels of an instant show, in numbers: arrays by name (docs/layers.md).
+
+    `names`: "depth", "distance", "segmentation", "normals", "flow", "backflow", "coordinates", one or a list.
+    Rows x columns, or rows x columns x channels; float32, of "segmentation" uint16. Of `against` the camera knows.
+    """
+    return _carom.layers(scene, motion._inner, time, _names(names), _against(against))
+
+
+def film(scene, motion, path, *, codec="", quality="", crf=None, threads=0, overwrite=False, progress=None,
+         against=None, layers=()):
     """Films all frames to `path`, a film by its extension, a name with %05d, or a folder of PNGs.
 
-    The number of frames. `progress` is called now and then with the frames written.
+    The number of frames. `progress` is called now and then with the frames written; `against` as in still();
+    `layers` are names, whose files are written beside PNG frames.
     """
-    return _carom.film(scene, motion._inner, _os.fspath(path), codec, quality, crf, threads, overwrite, progress)
+    return _carom.film(scene, motion._inner, _os.fspath(path), codec, quality, crf, threads, overwrite, progress,
+                       _against(against), _names(layers))
 
 
 def fit(drops=None, rebounds=None, *, intervals=None, constant=4.0, velocity=5.0, reading_error=None):

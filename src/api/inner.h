@@ -10,6 +10,7 @@
 #include "core/check.h"
 #include "core/failure.h"
 #include "motion/motion.h"
+#include "report/second_scene.h"
 #include "scene/scene.h"
 
 namespace carom::v1 {
@@ -17,11 +18,15 @@ namespace carom::v1 {
 struct Scene::Impl {
     carom::Scene scene;
     std::vector<Diagnostic> warnings;
+    SceneSource source;  ///< what it was read from
 };
 
 struct Motion::Impl {
     carom::Motion motion;
 };
+
+/// Throws SceneError.
+Scene scene_from(SceneSource source);
 
 /// Runs `work`; what the library throws inside comes out as Error.
 template <class Work>
@@ -45,6 +50,9 @@ auto translated(const Control& control, const Work& work) {
         throw;
     }
 }
+
+/// Throws Error for a time [s] outside of the motion.
+void require_instant(const Motion& motion, double time);
 
 inline Vec3 plain(const carom::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 

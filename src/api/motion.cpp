@@ -63,6 +63,10 @@ const char* name(EventKind kind) {
     return "leave";
 }
 
+void require_instant(const Motion& motion, double time) {
+    require_time(motion.impl().motion, time);
+}
+
 Motion::Motion(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 double Motion::duration() const { return impl_->motion.duration; }

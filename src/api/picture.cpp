@@ -40,12 +40,13 @@ Image inner_picture(const Picture& picture) {
 
 }  // namespace
 
-Picture still(const Scene& scene, const Motion& motion, double time) {
+Picture still(const Scene& scene, const Motion& motion, double time,
+              const std::optional<Against>& against) {
     return translated([&] {
-        if (!(time >= 0 && time <= motion.duration()))
-            throw Error(fmt::format("no instant {} s: the motion lasts from 0 to {} s", time,
-                                    motion.duration()));
-        PainterOptions options = painter_options(scene, motion);
+        require_own_motion(scene, motion);
+        require_instant(motion, time);
+        const std::optional<SecondRun> second = run_to_show(scene, motion, against, {});
+        PainterOptions options = painter_options(scene, second);
         options.few_pictures = true;
         options.only_at = time;
         Painter painter(scene.impl().scene, motion.impl().motion, options);

@@ -30,7 +30,10 @@ std::vector<Diagnostic> plain(const Diagnostics& diagnostics) {
     return result;
 }
 
-Scene made(SceneResult result) {
+}  // namespace
+
+Scene scene_from(SceneSource source) {
+    SceneResult result = read_scene(source.text, source.file, source.overrides);
     std::vector<Diagnostic> diagnostics = plain(result.diagnostics);
     if (!result.scene) {
         std::string text;
@@ -39,8 +42,10 @@ Scene made(SceneResult result) {
         throw SceneError(text, std::move(diagnostics));
     }
     return Scene(std::make_shared<Scene::Impl>(
-        Scene::Impl{std::move(*result.scene), std::move(diagnostics)}));
+        Scene::Impl{std::move(*result.scene), std::move(diagnostics), std::move(source)}));
 }
+
+namespace {
 
 template <class Things, class Member>
 auto members(const Things& things, Member member) {
@@ -54,12 +59,14 @@ auto members(const Things& things, Member member) {
 Scene::Scene(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 Scene Scene::from_file(const std::string& path, const std::vector<Setting>& settings) {
-    return translated([&] { return made(read_scene_file(path, overrides_of(settings))); });
+    return translated([&] {
+        return scene_from({read_scene_text(path), path, overrides_of(settings)});
+    });
 }
 
 Scene Scene::from_text(const std::string& yaml, const std::vector<Setting>& settings,
                        const std::string& name) {
-    return translated([&] { return made(read_scene(yaml, name, overrides_of(settings))); });
+    return translated([&] { return scene_from({yaml, name, overrides_of(settings)}); });
 }
 
 std::string Scene::title() const { return impl_->scene.title; }

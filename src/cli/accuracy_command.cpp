@@ -95,6 +95,7 @@ void add_accuracy_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_scene_options(*command, options->common);
     command->add_flag("-y,--overwrite", options->common.overwrite, "Replace files that exist");
     command->add_flag("-q,--quiet", options->common.quiet, "Errors and the result only");
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return accuracy(*options, interrupt); };
     });

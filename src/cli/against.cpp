@@ -3,26 +3,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "cli/shown_simulation.h"
 #include "cli/standard_error.h"
 #include "core/failure.h"
+#include "report/second_scene.h"
 
 namespace carom {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// What the second run is, from the scene's key and, before it, the command line.
 std::optional<Against> wanted_against(const Scene& scene, const AgainstOptions& options) {
-    std::optional<Against> wanted = scene.against;
-    if (wanted && !wanted->scene.empty()) {
-        // As seen from the scene's folder; standard input has none.
-        const fs::path folder = fs::path(scene.file).parent_path();
-        if (scene.file != "<stdin>") wanted->scene = (folder / wanted->scene).string();
-    }
+    std::optional<Against> wanted = against_named_in(scene);
     if (!options.scene.empty() || !options.set.empty()) {
         const AgainstView view = wanted ? wanted->view : AgainstView::kGhost;
         wanted = Against{options.scene, options.set, view};
@@ -36,40 +29,9 @@ std::optional<Against> wanted_against(const Scene& scene, const AgainstOptions& 
     return wanted;
 }
 
-std::vector<Override> overrides_of(const std::vector<std::string>& set) {
-    std::vector<Override> overrides;
-    for (const std::string& text : set) overrides.push_back(parse_override(text));
-    return overrides;
-}
-
-/// Where the second run's scene comes from.
-struct SecondSource {
-    std::string text, file;
-    std::vector<Override> overrides;
-    bool same_file = false;
-};
-
-SecondSource second_source(const Scene& scene, const std::string& text,
-                           const std::vector<Override>& overrides, const Against& wanted) {
-    SecondSource second;
-    second.same_file = wanted.scene.empty();
-    if (scene.file == "<stdin>" && wanted.scene == "-")
-        throw Failure(FailureKind::kInput, "--against -: standard input is the scene itself");
-    second.text = second.same_file ? text : read_scene_text(wanted.scene);
-    second.file = second.same_file ? scene.file : wanted.scene == "-" ? "<stdin>" : wanted.scene;
-    if (second.same_file) second.overrides = overrides;
-    for (const Override& override : overrides_of(wanted.set)) second.overrides.push_back(override);
-    return second;
-}
-
 void print(const Diagnostics& diagnostics, bool quiet) {
     for (const Diagnostic& d : diagnostics.items())
         if (!quiet || d.severity == Severity::kError) write_standard_error(d.shown());
-}
-
-std::string run_name(const Scene& scene, const Scene& compared) {
-    if (!scene.title.empty() && scene.title != compared.title) return scene.title;
-    return scene_stem(scene.file == "<stdin>" ? "-" : scene.file);
 }
 
 }  // namespace
@@ -105,10 +67,10 @@ std::optional<FilmScenes> load_film_scenes(const std::string& path, const Common
     if (!wanted) return scenes;
 
     scenes.view = wanted->view;
-    const SecondSource source = second_source(scenes.scene, text, overrides, *wanted);
+    const SceneSource source = second_source({text, scenes.scene.file, overrides}, *wanted);
     SceneResult second = read_scene(source.text, source.file, source.overrides);
     // Of the same file warnings have been printed.
-    print(second.diagnostics, options.quiet || source.same_file);
+    print(second.diagnostics, options.quiet || wanted->scene.empty());
     if (!second.scene) return std::nullopt;
     scenes.second = std::move(second.scene);
     scenes.differences = scene_differences(text, overrides, source.text, source.overrides);
@@ -117,30 +79,30 @@ std::optional<FilmScenes> load_film_scenes(const std::string& path, const Common
     return scenes;
 }
 
+std::string second_scene_file(const Scene& scene) {
+    const std::optional<Against> wanted = wanted_against(scene, {});
+    return wanted && wanted->scene != "-" ? wanted->scene : "";
+}
+
 std::optional<SceneResult> read_second(const Scene& scene, const std::string& text,
                                        const std::vector<Override>& overrides) {
     const std::optional<Against> wanted = wanted_against(scene, {});
     if (!wanted) return std::nullopt;
-    const SecondSource source = second_source(scene, text, overrides, *wanted);
+    const SceneSource source = second_source({text, scene.file, overrides}, *wanted);
     return read_scene(source.text, source.file, source.overrides);
 }
 
 std::optional<FilmedSecond> simulate_second(const FilmScenes& scenes, const Motion& first,
                                             const Interrupt& interrupt, ProgressMode mode) {
     if (!scenes.second) return std::nullopt;
-    FilmedSecond second;
-    second.run.scene = *scenes.second;
-    second.run.view = scenes.view;
-    second.run.differences = scenes.differences;
-    second.run.first_name = run_name(scenes.scene, *scenes.second);
-    second.run.second_name = run_name(*scenes.second, scenes.scene);
-    if (second.run.first_name == second.run.second_name) second.run.second_name += " (other run)";
-    check_runs(scenes.scene, second.run);
+    // What cannot be shown together need not be simulated.
+    make_second_run(scenes.scene, 0, *scenes.second, {}, scenes.view, scenes.differences);
     SimulationResult result = simulate_shown(*scenes.second, interrupt, mode, kSimulatingOther);
+    FilmedSecond second;
     second.motion_hash = result.motion.hash();
     second.report = std::move(result.report);
-    second.run.ended_s = result.motion.duration;
-    second.run.motion = held_until(std::move(result.motion), first.duration);
+    second.run = make_second_run(scenes.scene, first.duration, *scenes.second,
+                                 std::move(result.motion), scenes.view, scenes.differences);
     return second;
 }
 

@@ -36,8 +36,12 @@ struct FilmScenes {
 std::optional<FilmScenes> load_film_scenes(const std::string& path, const CommonOptions& options,
                                            const AgainstOptions& against);
 
-/// The second run of a scene that names one itself, for `carom check`; empty where it does not.
-/// `text` and `overrides` are those that `scene` was read from.
+/// The file of the second run that a scene names itself; "" where there is none or it is the same
+/// file.
+std::string second_scene_file(const Scene& scene);
+
+/// The second run of a scene that names one itself, without the command line's; empty where it does
+/// not. `text` and `overrides` are those that `scene` was read from.
 std::optional<SceneResult> read_second(const Scene& scene, const std::string& text,
                                        const std::vector<Override>& overrides);
 

@@ -6,14 +6,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <future>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/comparison.h"
@@ -26,6 +22,7 @@
 #include "media/film_reader.h"
 #include "media/output_file.h"
 #include "media/png.h"
+#include "media/png_measures.h"
 
 namespace carom {
 
@@ -94,30 +91,10 @@ std::set<std::string> png_names(const std::string& folder) {
     return names;
 }
 
-bool have_one_content(const std::string& a, const std::string& b) {
-    if (!fs::is_regular_file(a) || !fs::is_regular_file(b) || fs::file_size(a) != fs::file_size(b))
-        return false;
-    std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
-    return std::equal(std::istreambuf_iterator<char>(one), {},
-                      std::istreambuf_iterator<char>(other), std::istreambuf_iterator<char>());
-}
-
-/// Reads both at once, where there may be another thread; one file under two names once.
 void add_pictures(const std::string& name, const std::string& a, const std::string& b,
                   Comparison& comparison) {
-    if (have_one_content(a, b)) {
-        const AnyImage both = read_any_png(a);
-        comparison.add(name, both, both);
-        return;
-    }
-    std::future<AnyImage> other;
-    try {
-        other = std::async(std::launch::async, [&b] { return read_any_png(b); });
-    } catch (const std::system_error&) {  // no more threads
-        other = std::async(std::launch::deferred, [&b] { return read_any_png(b); });
-    }
-    const AnyImage one = read_any_png(a);
-    comparison.add(name, one, other.get());
+    comparison.add(name, measure_pngs(a, b),
+                   [&] { return difference_image(read_png(a), read_png(b)); });
 }
 
 void compare_folders(const CompareOptions& options, const Interrupt& interrupt,
@@ -159,7 +136,8 @@ void compare_films(const CompareOptions& options, const Interrupt& interrupt,
         if (!has_a && !has_b) break;
         const std::string name = fmt::format("frame {}", k);
         if (has_a && has_b) {
-            comparison.add(name, frame_a, frame_b);
+            comparison.add(name, measure_difference(frame_a, frame_b),
+                           [&] { return difference_image(frame_a, frame_b); });
             if (!same_time(a, b)) comparison.add_other_time(name, a.time_s(), b.time_s());
         } else {
             comparison.add_missing(name);
@@ -200,8 +178,8 @@ int compare(const CompareOptions& options, const Interrupt& interrupt) {
                         options.a, options.b));
     if (!options.difference.empty()) require_writable(options.difference, options.overwrite);
 
-    Comparison comparison(tolerance_for(options, kind),
-                          kind == Kind::kFilm ? "frames" : "pictures");
+    Comparison comparison(tolerance_for(options, kind), kind == Kind::kFilm ? "frames" : "pictures",
+                          !options.difference.empty());
     switch (kind) {
         case Kind::kPicture:
             add_pictures(options.a, options.a, options.b, comparison);

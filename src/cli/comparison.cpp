@@ -28,13 +28,13 @@ void Comparison::fail(const std::string& name, const std::string& why) {
     if (failed_.empty() || failed_.back() != name) failed_.push_back(name);
 }
 
-void Comparison::add(const std::string& name, const AnyImage& a, const AnyImage& b) {
-    const ImageMeasures m = measure_difference(a, b);
+void Comparison::add(const std::string& name, const ImageMeasures& m,
+                     const std::function<Image()>& difference) {
     pairs_.push_back({name, m});
     if (!within(tolerance_, m)) fail(name, measures_text(m));
     if (worst_ && !worse(m, pairs_[*worst_].measures)) return;
     worst_ = pairs_.size() - 1;
-    picture_ = m.same_size ? difference_image(flattened(a), flattened(b)) : Image();
+    if (keeps_picture_) picture_ = m.same_size ? difference() : Image();
 }
 
 void Comparison::add_other_time(const std::string& name, double a_s, double b_s) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -13,18 +14,21 @@ namespace carom {
 
 class Comparison {
   public:
-    /// `what` is the plural of what is compared: "pictures" or "frames".
-    Comparison(const ImageTolerance& tolerance, std::string what)
-        : tolerance_(tolerance), what_(std::move(what)) {}
+    /// `what` is the plural of what is compared: "pictures" or "frames". `keeps_picture`: the
+    /// difference of the worst pair is wanted.
+    Comparison(const ImageTolerance& tolerance, std::string what, bool keeps_picture)
+        : tolerance_(tolerance), what_(std::move(what)), keeps_picture_(keeps_picture) {}
 
-    void add(const std::string& name, const AnyImage& a, const AnyImage& b);
+    /// `difference` makes the pair's difference_image(); it is asked at once, if at all.
+    void add(const std::string& name, const ImageMeasures& measures,
+             const std::function<Image()>& difference);
     /// A frame that the films show at different times, in seconds after their first ones.
     void add_other_time(const std::string& name, double a_s, double b_s);
     void add_missing(const std::string& name);  ///< in one of them only
 
     bool same() const { return failed_.empty(); }
     std::int64_t compared() const { return static_cast<std::int64_t>(pairs_.size()); }
-    /// The difference of the worst pair of equal size; empty without one.
+    /// The difference of the worst pair of equal size; empty without one, or where none is wanted.
     const Image& worst_picture() const { return picture_; }
 
     /// A line that says how many differ, and one each for the first and the worst.
@@ -42,6 +46,7 @@ class Comparison {
 
     ImageTolerance tolerance_;
     std::string what_;
+    bool keeps_picture_;
     std::int64_t missing_ = 0;
     std::int64_t other_times_ = 0;
     std::vector<Pair> pairs_;           ///< all that were compared, in order

@@ -79,6 +79,7 @@ void add_figures_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_flag("-y,--overwrite", options->common.overwrite, "Replace files that exist");
     add_backend_option(*command);
     command->add_flag("-q,--quiet", options->common.quiet, "Errors only");
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return figures(*options, interrupt); };
     });

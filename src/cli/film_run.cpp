@@ -86,13 +86,15 @@ void Filming::draw_all(Painter& painter, KeptWork* kept) {
     film_frames(painter, film, source_.frames, sinks_, hooks);
 }
 
-/// Keeps what is playable and says how far it got.
+/// Keeps what is playable and says how far it got. Who limits the time wants no parts of films.
 void Filming::keep_partial() const {
     interrupt_.reached(fmt::format("after {} of {} frames", done_, source_.frames.size()));
     interrupt_.say();
-    for (const auto& sink : sinks_)
+    for (const auto& sink : sinks_) {
+        if (interrupt_.timed_out()) break;
         if (const std::string kept = sink->keep_partial(); !kept.empty())
             say("carom: kept {}\n", readable(kept));
+    }
     if (layers_) layers_->finish();
 }
 

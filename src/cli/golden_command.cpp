@@ -97,7 +97,7 @@ void write_reports(const GoldenOptions& options, const GoldenReport& report) {
 
 int check(const GoldenOptions& options, const Interrupt& interrupt) {
     require_places(options);
-    GoldenReport report{CAROM_VERSION, options.folder, options.limits, {}, {}, {}};
+    GoldenReport report{CAROM_VERSION, options.folder, options.limits.any, {}, {}, {}};
     GoldenStills stills(options, interrupt);
     const std::string folder = drawn_folder(options);
     for (const std::string& scene : options.scenes) {
@@ -167,13 +167,13 @@ int accept(const AcceptOptions& options) {
 
 void add_limits(CLI::App& action, GoldenOptions& options) {
     action
-        .add_option("--tolerance", options.limits.channel,
-                    "Largest difference of any channel, of 255")
+        .add_option("--tolerance", options.limits.any.channel,
+                    "Largest difference of any channel, of 255 (default: 2, of goldens by the same "
+                    "renderer 1)")
         ->check(CLI::Range(0, 255))
-        ->type_name("0-255")
-        ->capture_default_str();
+        ->type_name("0-255");
     action
-        .add_option("--max-differing", options.limits.differing,
+        .add_option("--max-differing", options.limits.any.differing,
                     "Largest fraction of pixels that differ at all, 0 to 1; both limits hold")
         ->check(CLI::Range(0.0, 1.0))
         ->type_name("F")
@@ -254,7 +254,9 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         add_picture_options(*action, options->common);
         add_backend_option(*action);
         add_progress_options(*action, options->common);
-        action->callback([options, function, &run, &interrupt] {
+        add_time_limit_option(*action, interrupt);
+        action->callback([options, action, function, &run, &interrupt] {
+            options->limits.closer_for_same_renderer = action->count("--tolerance") == 0;
             run = [options, function, &interrupt] { return function(*options, interrupt); };
         });
         return action;

@@ -21,7 +21,7 @@ struct GoldenOptions {
     std::string folder;
     std::string differences;  ///< folder for pictures of what differs; empty: none
     std::vector<double> times;
-    ImageTolerance limits;
+    GoldenLimits limits;
     std::string html, junit, json;  ///< reports; empty: none
     bool orphans_fail = false;
     bool dry_run = false;

@@ -1,8 +1,9 @@
-// Signals that end a program, as a stop request that the work can see, so that files are closed
-// properly; and an end soon after where the work does not see it.
+// Signals that end a program, and its time limit, as a stop request that the work can see, so that
+// files are closed properly; and an end soon after where the work does not see it.
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <functional>
 #include <mutex>
@@ -23,6 +24,8 @@ struct Interrupted {};
 /// its temporary files and ends with 128 and the signal's number. So it does at once at the second
 /// signal. What is worth more time is for KeptWork.
 ///
+/// A time limit that is over is as a first signal, but that nothing is worth more time.
+///
 /// Make one at the start of main, before any other thread: it blocks the signals for all threads
 /// and waits for them on its own. Where no thread can be made, the first signal is as the second.
 class Interrupt {
@@ -36,8 +39,13 @@ class Interrupt {
     bool requested() const { return stop_.stop_requested(); }
     /// Throws Interrupted after a request.
     void check() const;
-    /// 128 and the signal's number, for main's return.
+    /// 128 and the signal's number, kExitFailed after the time limit; for main's return.
     int exit_code() const;
+
+    /// Requests a stop when so many seconds from now have passed; once, or the last one counts.
+    void end_after(double seconds) const;
+    /// True where the stop was requested because the time is up.
+    bool timed_out() const { return timed_out_; }
 
     /// How far the work is, after the word "interrupted": "after 3 of 20 files". Safe from any
     /// thread, as what follows.
@@ -48,16 +56,23 @@ class Interrupt {
   private:
     friend class KeptWork;
 
+    using Clock = std::chrono::steady_clock;
+
     void watch();
-    int next_signal(bool may_end);
+    void request_stop(int signal);
+    int next_signal(Clock::time_point until) const;
+    Clock::time_point limit() const { return Clock::time_point(Clock::duration(limit_.load())); }
     void leave_work();
-    [[noreturn]] void end_now(int signal) const;
+    [[noreturn]] void end_now(int exit_code) const;
     std::string text() const noexcept;
 
     sigset_t watched_{};
     std::stop_source stop_;
     std::atomic<int> signal_ = 0;
+    std::atomic<bool> timed_out_ = false;
     std::atomic<bool> ending_ = false;
+    mutable std::atomic<Clock::rep> limit_ = Clock::time_point::max().time_since_epoch().count();
+    mutable std::atomic<double> limit_s_ = 0;  ///< the same as it was asked for
     mutable std::atomic<bool> said_ = false;
     mutable std::timed_mutex where_mutex_;
     mutable std::string where_;

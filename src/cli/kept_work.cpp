@@ -36,7 +36,7 @@ void KeptWork::leave() {
         } catch (const Failure&) {
             // What cannot be kept is lost: the interrupt is what is said.
         }
-        interrupt_.end_now(interrupt_.signal_);
+        interrupt_.end_now(interrupt_.exit_code());
     };
     try {
         std::thread(end).detach();

@@ -9,9 +9,9 @@
 namespace carom {
 
 /// While it lives, an interrupt does not end the process before the work has come to its own end,
-/// however long that takes; a second one does. But a step() is left where it is, as an Interrupt
-/// says, and `keep` is called in the place of the thread that works, which never goes on. Work and
-/// steps are of one thread.
+/// however long that takes; a second one, and a time limit, do. But a step() is left where it is,
+/// as an Interrupt says, and `keep` is called in the place of the thread that works, which never
+/// goes on. Work and steps are of one thread.
 class KeptWork {
   public:
     /// `keep` keeps what there is, and says so; then the process ends.

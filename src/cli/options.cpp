@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "cli/interrupt.h"
 #include "cli/standard_error.h"
 #include "core/failure.h"
 
@@ -80,6 +81,22 @@ void add_progress_options(CLI::App& command, CommonOptions& options) {
 void add_talk_options(CLI::App& command, CommonOptions& options) {
     add_progress_options(command, options);
     command.add_flag("-v,--verbose", options.verbose, "Say more on standard error");
+}
+
+void add_time_limit_option(CLI::App& command, const Interrupt& interrupt) {
+    command
+        .add_option_function<double>(
+            "--time-limit", [&interrupt](double seconds) { interrupt.end_after(seconds); },
+            "End after so many seconds of the clock, with exit code 1 and no file that is not "
+            "whole "
+            "(default: none)")
+        ->type_name("S")
+        ->check([](const std::string& text) {
+            double seconds = 0;  // not a number is not above 0 either
+            const bool right = CLI::detail::lexical_cast(text, seconds) && seconds > 0;
+            return right ? std::string()
+                         : fmt::format("'{}' is no number of seconds above 0", text);
+        });
 }
 
 std::optional<Scene> load_scene(const std::string& path, const CommonOptions& options) {

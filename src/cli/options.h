@@ -15,6 +15,8 @@ class App;
 
 namespace carom {
 
+class Interrupt;
+
 /// What the user asked for on the command line, besides the command's own options.
 struct CommonOptions {
     std::vector<std::string> set;     ///< PATH=VALUE
@@ -38,6 +40,8 @@ void add_picture_options(CLI::App& command, CommonOptions& options);   ///< --si
 void add_output_options(CLI::App& command, CommonOptions& options);    ///< -y, --stats
 void add_progress_options(CLI::App& command, CommonOptions& options);  ///< --progress, -q
 void add_talk_options(CLI::App& command, CommonOptions& options);      ///< the same, and -v
+/// --time-limit: of every command that simulates or draws.
+void add_time_limit_option(CLI::App& command, const Interrupt& interrupt);
 
 /// Reads the scene and prints its diagnostics; empty when it is invalid (exit code 3).
 std::optional<Scene> load_scene(const std::string& path, const CommonOptions& options);

@@ -16,6 +16,7 @@
 #include "media/threaded_sink.h"
 #include "report/provenance.h"
 #include "report/scene_film.h"
+#include "report/second_scene.h"
 #include "scene/film_clock.h"
 
 namespace carom {
@@ -187,8 +188,7 @@ namespace {
 /// "" where there is no second run.
 std::string against_of(const FilmSource& source) {
     if (source.second == nullptr) return "";
-    return fmt::format("{:016x} {}", source.second->fingerprint,
-                       source.view == AgainstView::kSide ? "side" : "ghost");
+    return second_text(*source.second, source.view);
 }
 
 }  // namespace

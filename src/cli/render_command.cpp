@@ -323,6 +323,7 @@ void add_render_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_backend_option(*command);
     add_output_options(*command, options->common);
     add_talk_options(*command, options->common);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] {
             options->sounds = take_sounds(options->outputs);

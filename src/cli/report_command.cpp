@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,8 +16,10 @@
 #include "cli/report_run.h"
 #include "cli/standard_output.h"
 #include "core/failure.h"
+#include "core/readable.h"
 #include "media/output_file.h"
 #include "page/overview_page.h"
+#include "page/sweep_page.h"
 
 namespace carom {
 
@@ -32,13 +35,43 @@ struct ReportOptions {
 /// Pictures of an overview are small: at most this wide, in the proportions of the film.
 constexpr int kOverviewWidth = 480;
 
-/// The page of one scene, or of several; empty where one is invalid, which has been said.
+bool has_folder(const ReportOptions& options) {
+    std::error_code unreadable;
+    return std::any_of(options.scenes.begin(), options.scenes.end(), [&](const std::string& path) {
+        return std::filesystem::is_directory(path, unreadable);
+    });
+}
+
+/// A folder is shown as it is: what a scene's simulation takes does not go with it.
+void require_alone(const ReportOptions& options) {
+    if (options.scenes.size() > 1)
+        throw Failure(FailureKind::kInput,
+                      "the folder of a sweep has a page of its own: name it "
+                      "alone");
+    if (options.wishes.accuracy || !options.common.overrides().empty())
+        throw Failure(FailureKind::kInput,
+                      "--set, --size and --accuracy are for scenes; the runs of a sweep are made");
+    if (!is_sweep_folder(options.scenes.front()))
+        throw Failure(
+            FailureKind::kInput,
+            fmt::format("{} is a folder without index.csv and dataset.json: `carom sweep "
+                        "SWEEP.yaml -o {} --index` writes them",
+                        readable(options.scenes.front()), readable(options.scenes.front())));
+}
+
+/// The page of one scene, of several, or of a sweep's folder; empty where a scene is invalid, which
+/// has been said.
 std::optional<std::string> page(const ReportOptions& options, const Interrupt& interrupt) {
+    if (has_folder(options)) {
+        require_alone(options);
+        return sweep_page(read_run_table(options.scenes.front()), CAROM_VERSION);
+    }
     if (options.scenes.size() == 1) {
         const std::optional<ReportedRun> run =
             run_for_report(options.scenes.front(), options.common, options.wishes, interrupt);
         if (!run) return std::nullopt;
-        return report_page(run->scene, run->result, run->parts);
+        return report_page(run->scene, run->result, run->parts,
+                           run->ghosts ? &*run->ghosts : nullptr);
     }
     std::vector<OverviewEntry> entries;
     bool valid = true;
@@ -90,11 +123,12 @@ void add_report_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->footer(
         "  carom report scene.yaml -o report.html\n"
         "  carom report scene.yaml -o report.html --accuracy --size 640x360\n"
-        "  carom report scenes/official/*.yaml -o overview.html\n");
+        "  carom report scenes/official/*.yaml -o overview.html\n"
+        "  carom report out/sweep -o sweep.html\n");
     command
         ->add_option("scene", options->scenes,
                      "Scene file, - for standard input; several make one page with a picture "
-                     "and a row each")
+                     "and a row each; or the folder of a sweep")
         ->required()
         ->type_name("SCENE")
         ->expected(1, CLI::detail::expected_max_vector_size)
@@ -111,6 +145,7 @@ void add_report_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     command->add_flag("-y,--overwrite", options->common.overwrite,
                       "Replace a file that exists (default: it is kept, exit code 4)");
     add_progress_options(*command, options->common);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return report(*options, interrupt); };
     });

@@ -125,7 +125,7 @@ std::optional<ReportedRun> run_for_report(const std::string& path, const CommonO
 
     ReportedRun run;
     run.result = simulate_shown(scene, interrupt, options.progress_mode());
-    const std::optional<FilmedSecond> second =
+    std::optional<FilmedSecond> second =
         simulate_second(*scenes, run.result.motion, interrupt, options.progress_mode());
     Stats stats;
     stats.add_warnings(run.result.report, options.quiet);
@@ -138,6 +138,7 @@ std::optional<ReportedRun> run_for_report(const std::string& path, const CommonO
     draw(*scenes, run.result, second ? &second->run : nullptr, options, wishes, interrupt,
          run.parts);
     if (wishes.accuracy) run.parts.accuracy = measured(scene, wishes, options, interrupt);
+    if (second && same_surfaces(scene, second->run.scene)) run.ghosts = std::move(second->run);
     run.scene = std::move(scene);
     return run;
 }

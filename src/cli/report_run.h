@@ -7,6 +7,7 @@
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "page/report_page.h"
+#include "render/runs/second_run.h"
 #include "scene/scene.h"
 #include "sim/record/simulation_result.h"
 
@@ -16,6 +17,7 @@ struct ReportedRun {
     Scene scene;
     SimulationResult result;
     ReportParts parts;
+    std::optional<SecondRun> ghosts;  ///< the second run, where it has the same surfaces
 };
 
 struct ReportWishes {

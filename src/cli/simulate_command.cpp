@@ -225,6 +225,7 @@ void add_simulate_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_scene_options(*command, options->common);
     add_output_options(*command, options->common);
     add_progress_options(*command, options->common);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return simulate_to_files(*options, interrupt); };
     });

@@ -212,6 +212,7 @@ void add_still_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_backend_option(*command);
     add_output_options(*command, options->common);
     add_progress_options(*command, options->common);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return still(*options, interrupt); };
     });

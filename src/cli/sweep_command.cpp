@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
+#include "cli/options.h"
 #include "cli/slurm.h"
 #include "cli/standard_error.h"
 #include "cli/sweep_estimate.h"
@@ -156,6 +157,7 @@ void add_sweep_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
     add_slurm_options(*command, options->slurm);
     add_scene_options(*command, options->common);
     add_progress_options(*command, options->common);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return sweep_command(*options, interrupt); };
     });

@@ -9,7 +9,9 @@
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "cli/against.h"
 #include "cli/backend_option.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -39,13 +41,26 @@ struct FileState {
     std::uintmax_t size = 0;
     bool operator==(const FileState&) const = default;
 };
-std::optional<FileState> state_of(const std::string& path) {
+std::optional<FileState> file_state(const std::string& path) {
     std::error_code failed;
     FileState state{std::filesystem::last_write_time(path, failed), 0};
     if (failed) return std::nullopt;
     state.size = std::filesystem::file_size(path, failed);
     return failed ? std::nullopt : std::optional(state);
 }
+
+/// Of the scene and, where it names one, of the scene that it is shown against.
+struct Watched {
+    std::string scene, other;
+
+    /// The scene's own state comes first; empty where it is not there.
+    std::vector<std::optional<FileState>> states() const {
+        std::vector<std::optional<FileState>> states{file_state(scene)};
+        if (!states.front()) return {};
+        if (!other.empty()) states.push_back(file_state(other));
+        return states;
+    }
+};
 
 /// Makes a page of the scene whenever it has been saved.
 class SceneWatch {
@@ -57,9 +72,9 @@ class SceneWatch {
 
   private:
     void look(const std::stop_token& stop) {
-        const std::optional<FileState> now = state_of(options_.scene);
-        if (now && now != shown_) {
-            shown_ = now;
+        std::vector<std::optional<FileState>> now = watched_.states();
+        if (!now.empty() && now != shown_) {
+            shown_ = std::move(now);
             const int revision = ++revision_;
             if (std::optional<std::string> made = page(revision, stop))
                 server_.show(std::move(*made), revision);
@@ -72,26 +87,56 @@ class SceneWatch {
         std::stop_source saved;
         const std::stop_callback ended(stop, [&] { saved.request_stop(); });
         try {
-            const SceneResult read = read_scene_file(options_.scene, options_.common.overrides());
-            if (!read.scene) {
-                std::string messages;
-                for (const Diagnostic& d : read.diagnostics.items()) messages += d.shown();
-                return wrong_scene_page(options_.scene, messages, revision);
+            const std::string text = read_scene_text(options_.scene);
+            const std::vector<Override> overrides = options_.common.overrides();
+            const SceneResult read = read_scene(text, options_.scene, overrides);
+            if (!read.scene) return wrong_page(read.diagnostics, revision);
+            watch(second_scene_file(*read.scene));
+            const std::optional<SceneResult> other = read_second(*read.scene, text, overrides);
+            if (other && !other->scene) return wrong_page(other->diagnostics, revision);
+            const SimulationResult result = simulated(*read.scene, saved);
+            std::optional<SecondRun> ghosts;
+            if (other && same_surfaces(*read.scene, *other->scene)) {
+                ghosts.emplace();
+                ghosts->scene = *other->scene;
+                check_runs(*read.scene, *ghosts);
+                ghosts->motion =
+                    held_until(simulated(*other->scene, saved).motion, result.motion.duration);
             }
-            const SimulationResult result = simulate(*read.scene, saved.get_token(), [&](double) {
-                if (const auto now = state_of(options_.scene); now && now != shown_)
-                    saved.request_stop();
-            });
-            return view_page(*read.scene, result, CAROM_VERSION, revision, textures_);
+            return view_page(*read.scene, result, ghosts ? &*ghosts : nullptr, CAROM_VERSION,
+                             revision, textures_);
         } catch (const std::exception& failure) {
             if (saved.stop_requested()) return std::nullopt;
             return wrong_scene_page(options_.scene, failure.what(), revision);
         }
     }
 
+    /// The same states of the scene's file, and those of the other one as it is now.
+    void watch(const std::string& other) {
+        if (watched_.other == other) return;
+        watched_.other = other;
+        shown_.resize(1);
+        if (!other.empty()) shown_.push_back(file_state(other));
+    }
+
+    std::string wrong_page(const Diagnostics& diagnostics, int revision) const {
+        std::string messages;
+        for (const Diagnostic& d : diagnostics.items()) messages += d.shown();
+        return wrong_scene_page(options_.scene, messages, revision);
+    }
+
+    /// Broken off where a file is saved meanwhile.
+    SimulationResult simulated(const Scene& scene, std::stop_source& saved) const {
+        return simulate(scene, saved.get_token(), [&](double) {
+            if (const auto now = watched_.states(); !now.empty() && now != shown_)
+                saved.request_stop();
+        });
+    }
+
     const ViewOptions& options_;
     ViewServer& server_;
-    std::optional<FileState> shown_;
+    Watched watched_{options_.scene, ""};
+    std::vector<std::optional<FileState>> shown_;
     int revision_ = 0;
     KnownTextures textures_;
     std::jthread thread_;  ///< last: it uses all of the above
@@ -100,7 +145,7 @@ class SceneWatch {
 int view(const ViewOptions& options, const Interrupt& interrupt) {
     if (options.scene == "-")
         throw Failure(FailureKind::kInput, "view: standard input cannot be saved anew; a file can");
-    if (!state_of(options.scene))
+    if (!file_state(options.scene))
         throw Failure(FailureKind::kInput, fmt::format("cannot read '{}'", options.scene));
     options.common.overrides();  // a wrong --set ends the command, not a page
     ViewServer server(options.port);
@@ -130,6 +175,7 @@ void add_view_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         ->type_name("N");
     add_scene_options(*command, options->common);
     add_backend_option(*command);
+    add_time_limit_option(*command, interrupt);
     command->callback([options, &run, &interrupt] {
         run = [options, &interrupt] { return view(*options, interrupt); };
     });

@@ -35,6 +35,31 @@ bool is_word(const std::string& character) {
     return character.size() > 1 || std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
 }
 
+/// A line of which only a part may be worth looking at, and the column that the part begins with.
+struct LinePart {
+    std::string_view text;
+    int from = 1;
+};
+
+/// Of a line of megabytes as much as is shown on either side of the place, and more.
+LinePart part_around(std::string_view line, int column) {
+    constexpr std::size_t kEnough = 4 * 2 * kMostShown;  // characters have up to four bytes
+    const auto length = [line](std::size_t at) {
+        return std::max<std::size_t>(1, utf8_length(line, at));
+    };
+    const auto is_inside = [line](std::size_t at) {
+        return at < line.size() && (static_cast<unsigned char>(line[at]) & 0xC0U) == 0x80U;
+    };
+    std::size_t at = 0;
+    int here = 1;
+    for (; here < column && at < line.size(); ++here) at += length(at);
+    std::size_t first = at - std::min(at, kEnough), last = std::min(line.size(), at + kEnough);
+    while (first > 0 && first < at && is_inside(first)) ++first;
+    while (last < line.size() && is_inside(last)) ++last;
+    for (std::size_t i = first; i < at; i += length(i)) --here;
+    return {line.substr(first, last - first), here};
+}
+
 }  // namespace
 
 std::string_view first_line(std::string_view text) {
@@ -50,8 +75,9 @@ std::string_view after_first_line(std::string_view text) {
 
 std::string excerpt(std::string_view line, SourceMark mark) {
     if (line.empty() || mark.line <= 0 || mark.column <= 0) return "";
-    const std::vector<std::string> all = shown_characters(line);
-    const std::size_t at = std::min(static_cast<std::size_t>(mark.column) - 1, all.size());
+    const LinePart part = part_around(line, mark.column);
+    const std::vector<std::string> all = shown_characters(part.text);
+    const std::size_t at = std::min(static_cast<std::size_t>(mark.column - part.from), all.size());
     std::size_t first = 0, last = all.size();
     if (all.size() > kMostShown) {
         first = std::min(at - std::min(at, kBefore), all.size() - kMostShown);

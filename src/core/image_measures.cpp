@@ -6,54 +6,42 @@
 #include <cstring>
 #include <limits>
 
-#include "core/structural_similarity.h"
-
 namespace carom {
 
 namespace {
 
 constexpr std::size_t kChannels = 4;
 
-/// What 255 is in a picture's own steps.
-constexpr int one(const Image&) { return 255; }
-constexpr int one(const DeepImage&) { return 65535; }
+/// What 255 is in the samples' own steps.
+template <class Sample>
+constexpr int kOne = std::numeric_limits<Sample>::max();
 
 double decibel(double mean_square_of_255) {
     return mean_square_of_255 > 0 ? 10 * std::log10(255.0 * 255.0 / mean_square_of_255)
                                   : std::numeric_limits<double>::infinity();
 }
 
-template <class Picture>
-bool is_opaque(const Picture& picture) {
-    auto all = picture.bgra.empty() ? decltype(picture.bgra[0]){} : picture.bgra[3];
-    for (std::size_t i = 3; i < picture.bgra.size(); i += kChannels)
-        all = std::min(all, picture.bgra[i]);
-    return picture.bgra.empty() || int{all} == one(picture);
+template <class Sample>
+bool is_opaque(const Sample* row, std::size_t pixels) {
+    Sample all = std::numeric_limits<Sample>::max();
+    for (std::size_t i = 0; i < pixels; ++i)
+        all = static_cast<Sample>(all & row[kChannels * i + 3]);
+    return all == std::numeric_limits<Sample>::max();
 }
 
 /// BT.709 luma of 0 ... 255, over black, or over white where the picture can be seen through.
-template <class Picture>
-LumaPlane luma_plane(const Picture& picture, bool over_white) {
-    LumaPlane plane{picture.width_px, picture.height_px, {}};
-    plane.values.resize(picture.bgra.size() / kChannels);
-    const float unit = 255.0F / static_cast<float>(one(picture));
-    const float white = over_white ? 255.0F : 0.0F;
-    for (std::size_t i = 0; i < plane.values.size(); ++i) {
-        const auto* p = &picture.bgra[kChannels * i];
-        const float luma = 0.0722F * static_cast<float>(p[0]) + 0.7152F * static_cast<float>(p[1]) +
-                           0.2126F * static_cast<float>(p[2]);
-        const float alpha = unit * static_cast<float>(p[3]) / 255.0F;
-        plane.values[i] = unit * luma + white * (1 - alpha);
+template <class Sample, bool kOverWhite>
+void luma_of(const std::byte* pixels, std::size_t count, float* luma) {
+    const auto* p = reinterpret_cast<const Sample*>(pixels);
+    constexpr float kUnit = 255.0F / static_cast<float>(kOne<Sample>);
+    constexpr float kWhite = kOverWhite ? 255.0F : 0.0F;
+    for (std::size_t i = 0; i < count; ++i, p += kChannels) {
+        const float sum = 0.0722F * static_cast<float>(p[0]) + 0.7152F * static_cast<float>(p[1]) +
+                          0.2126F * static_cast<float>(p[2]);
+        const float alpha = kUnit * static_cast<float>(p[3]) / 255.0F;
+        luma[i] = kUnit * sum + kWhite * (1 - alpha);
     }
-    return plane;
 }
-
-/// Sums over the pixels that differ, in the pictures' own steps.
-struct Sums {
-    std::int64_t largest = 0, differing = 0;
-    double colours = 0, alpha = 0, luma = 0;  ///< of squares
-    PixelRect where;
-};
 
 /// How far the luma of two pixels is off, over black or over white, whichever shows more.
 double luma_off(const int (&off)[kChannels]) {
@@ -62,8 +50,38 @@ double luma_off(const int (&off)[kChannels]) {
     return std::abs(over_white) > std::abs(over_black) ? over_white : over_black;
 }
 
+template <class Picture>
+ImageMeasures measure(const Picture& a, const Picture& b) {
+    if (a.width_px != b.width_px || a.height_px != b.height_px) {
+        ImageMeasures other;
+        other.same_size = false;
+        return other;
+    }
+    using Sample = std::decay_t<decltype(a.bgra[0])>;
+    MeasuredRows<Sample> rows(a.width_px, a.height_px);
+    const std::size_t stride = static_cast<std::size_t>(a.width_px) * kChannels;
+    for (std::size_t y = 0; y < static_cast<std::size_t>(a.height_px); ++y)
+        rows.add_row(a.bgra.data() + y * stride, b.bgra.data() + y * stride);
+    return rows.measures();
+}
+
+/// The picture in 16 bits; made where it has 8.
+const DeepImage& deep(const AnyImage& image, DeepImage& made) {
+    if (const auto* found = std::get_if<DeepImage>(&image)) return *found;
+    made = deepened(std::get<Image>(image));
+    return made;
+}
+
+}  // namespace
+
 template <class Sample>
-void add_pixel(const Sample* a, const Sample* b, Sums& sums) {
+MeasuredRows<Sample>::MeasuredRows(int width_px, int height_px)
+    : width_px_(width_px),
+      height_px_(height_px),
+      over_black_(width_px, height_px, kChannels * sizeof(Sample), luma_of<Sample, false>) {}
+
+template <class Sample>
+void MeasuredRows<Sample>::add_pixel(const Sample* a, const Sample* b, Sums& sums) {
     int off[kChannels];
     int largest = 0;
     for (std::size_t c = 0; c < kChannels; ++c) {
@@ -78,57 +96,42 @@ void add_pixel(const Sample* a, const Sample* b, Sums& sums) {
     sums.luma += luma * luma;
 }
 
-template <class Picture>
-Sums sums_of(const Picture& a, const Picture& b) {
-    Sums sums;
-    const auto width = static_cast<std::size_t>(a.width_px);
-    for (int y = 0; y < a.height_px; ++y) {
-        const std::size_t start = static_cast<std::size_t>(y) * width * kChannels;
-        const auto *row_a = a.bgra.data() + start, *row_b = b.bgra.data() + start;
-        const std::size_t bytes = width * kChannels * sizeof *row_a;
-        if (std::memcmp(row_a, row_b, bytes) == 0) continue;
-        for (std::size_t x = 0; x < width; ++x) {
-            const auto *p = row_a + kChannels * x, *q = row_b + kChannels * x;
-            if (std::memcmp(p, q, kChannels * sizeof *p) == 0) continue;
-            add_pixel(p, q, sums);
-            sums.where = sums.where.joined(PixelRect::at(static_cast<int>(x), y, 1, 1));
-        }
+template <class Sample>
+void MeasuredRows<Sample>::add_row(const Sample* a, const Sample* b) {
+    const auto width = static_cast<std::size_t>(width_px_);
+    if (!over_white_ && !(is_opaque(a, width) && is_opaque(b, width))) {
+        over_white_ = over_black_;
+        over_white_->set_luma(luma_of<Sample, true>);
     }
-    return sums;
+    const auto* bytes_a = reinterpret_cast<const std::byte*>(a);
+    const auto* bytes_b = reinterpret_cast<const std::byte*>(b);
+    over_black_.add_row(bytes_a, bytes_b);
+    if (over_white_) over_white_->add_row(bytes_a, bytes_b);
+    if (std::memcmp(a, b, width * kChannels * sizeof *a) == 0) return;
+    for (std::size_t i = 0; i < width * kChannels; i += kChannels)
+        if (std::memcmp(a + i, b + i, kChannels * sizeof *a) != 0) add_pixel(a + i, b + i, sums_);
 }
 
-template <class Picture>
-ImageMeasures measure(const Picture& a, const Picture& b) {
+template <class Sample>
+ImageMeasures MeasuredRows<Sample>::measures() const {
     ImageMeasures result;
-    result.same_size = a.width_px == b.width_px && a.height_px == b.height_px;
-    if (!result.same_size) return result;
-    result.pixels = static_cast<std::int64_t>(a.width_px) * a.height_px;
-    const Sums sums = sums_of(a, b);
-    const double unit = 255.0 / one(a), pixels = static_cast<double>(result.pixels);
-    result.largest = static_cast<double>(sums.largest) * unit;
-    result.differing = sums.differing;
+    result.pixels = std::int64_t{width_px_} * height_px_;
+    const double unit = 255.0 / kOne<Sample>, pixels = static_cast<double>(result.pixels);
+    result.largest = static_cast<double>(sums_.largest) * unit;
+    result.differing = sums_.differing;
     result.psnr_db = result.psnr_luma_db = std::numeric_limits<double>::infinity();
     result.ssim = 1;
-    if (sums.differing == 0) return result;
-    const bool opaque = is_opaque(a) && is_opaque(b);
-    const double squares = sums.colours + (opaque ? 0 : sums.alpha);
-    result.psnr_db = decibel(unit * unit * squares / ((opaque ? 3 : 4) * pixels));
-    result.psnr_luma_db = decibel(unit * unit * sums.luma / pixels);
-    result.ssim = structural_similarity(luma_plane(a, false), luma_plane(b, false), sums.where);
-    if (!opaque)
-        result.ssim = std::min(result.ssim, structural_similarity(luma_plane(a, true),
-                                                                  luma_plane(b, true), sums.where));
+    if (sums_.differing == 0) return result;
+    const double squares = sums_.colours + (over_white_ ? sums_.alpha : 0);
+    result.psnr_db = decibel(unit * unit * squares / ((over_white_ ? 4 : 3) * pixels));
+    result.psnr_luma_db = decibel(unit * unit * sums_.luma / pixels);
+    result.ssim = over_black_.mean();
+    if (over_white_) result.ssim = std::min(result.ssim, over_white_->mean());
     return result;
 }
 
-/// The picture in 16 bits; made where it has 8.
-const DeepImage& deep(const AnyImage& image, DeepImage& made) {
-    if (const auto* found = std::get_if<DeepImage>(&image)) return *found;
-    made = deepened(std::get<Image>(image));
-    return made;
-}
-
-}  // namespace
+template class MeasuredRows<std::uint8_t>;
+template class MeasuredRows<std::uint16_t>;
 
 ImageMeasures measure_difference(const AnyImage& a, const AnyImage& b) {
     const auto *flat_a = std::get_if<Image>(&a), *flat_b = std::get_if<Image>(&b);

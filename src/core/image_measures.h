@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/deep_image.h"
+#include "core/structural_similarity.h"
 
 namespace carom {
 
@@ -29,6 +31,33 @@ struct ImageMeasures {
 };
 
 ImageMeasures measure_difference(const AnyImage& a, const AnyImage& b);
+
+/// The same of two pictures of one size whose rows come one after the other, from the top: neither
+/// is kept. Samples as those of Image or DeepImage.
+template <class Sample>
+class MeasuredRows {
+  public:
+    MeasuredRows(int width_px, int height_px);
+    void add_row(const Sample* a, const Sample* b);
+    /// After the last row.
+    ImageMeasures measures() const;
+
+  private:
+    /// Sums over the pixels that differ, in the pictures' own steps.
+    struct Sums {
+        std::int64_t largest = 0, differing = 0;
+        double colours = 0, alpha = 0, luma = 0;  ///< of squares
+    };
+    static void add_pixel(const Sample* a, const Sample* b, Sums& sums);
+
+    int width_px_, height_px_;
+    Sums sums_;
+    StructuralSimilarity over_black_;
+    std::optional<StructuralSimilarity> over_white_;  ///< from the first pixel that is not opaque
+};
+
+extern template class MeasuredRows<std::uint8_t>;
+extern template class MeasuredRows<std::uint16_t>;
 
 /// True where both limits hold.
 inline bool within(const ImageTolerance& limits, const ImageMeasures& m) {

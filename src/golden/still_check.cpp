@@ -13,12 +13,14 @@
 #include "golden/ignore_file.h"
 #include "media/file_kind.h"
 #include "media/png.h"
+#include "media/png_text.h"
 
 namespace carom {
 
 namespace {
 
 constexpr std::size_t kPixelBytes = 4;
+constexpr const char* kRenderer = "Renderer";  // keyword of the text in a golden
 
 std::string file_bytes(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
@@ -66,8 +68,19 @@ PixelRect differing_rect(const Image& a, const Image& b) {
     return rect;
 }
 
-void compare(const AnyImage& golden, const Image& drawn, const ImageTolerance& limits,
-             StillCheck& check) {
+/// Which limits are missed; empty where none is.
+std::string missed_limits(const GoldenLimits& limits, bool same_renderer, const ImageMeasures& m) {
+    if (!within(limits.any, m)) return missed_text(limits.any, m);
+    constexpr int kMost = GoldenLimits::kSameRenderer;
+    if (!limits.closer_for_same_renderer || !same_renderer || m.largest <= kMost) return "";
+    return fmt::format(
+        "off by {:.6g}, {:.6g} more than the {} of 255 allowed to the renderer that drew the "
+        "golden",
+        m.largest, m.largest - kMost, kMost);
+}
+
+void compare(const AnyImage& golden, const Image& drawn, const GoldenLimits& limits,
+             bool same_renderer, StillCheck& check) {
     const Image flat = flattened(golden);
     check.golden_width_px = flat.width_px;
     check.golden_height_px = flat.height_px;
@@ -88,8 +101,8 @@ void compare(const AnyImage& golden, const Image& drawn, const ImageTolerance& l
                                            : measure_difference(flat, masked);
     check.measures.pixels -= covered_pixels(check.ignored, flat.width_px, flat.height_px);
     check.why = measures_text(check.measures);
-    check.missed = missed_text(limits, check.measures);
-    if (within(limits, check.measures)) return;
+    check.missed = missed_limits(limits, same_renderer, check.measures);
+    if (check.missed.empty()) return;
     check.outcome = Outcome::kDifferent;
     if (!is_opaque(flat) || !is_opaque(drawn)) {
         check.difference_png = encode_png(difference_image(flat, masked), PngEffort::kSmall);
@@ -116,7 +129,7 @@ const char* outcome_word(Outcome outcome) {
     return "";
 }
 
-StillCheck check_still(const DrawnStill& still, const Image& drawn, const ImageTolerance& limits) {
+StillCheck check_still(const DrawnStill& still, const Image& drawn, const GoldenLimits& limits) {
     StillCheck check;
     check.still = still;
     check.width_px = drawn.width_px;
@@ -132,7 +145,8 @@ StillCheck check_still(const DrawnStill& still, const Image& drawn, const ImageT
             if (file_content(still.golden).kind == FileKind::kLfsPointer)
                 throw Failure(FailureKind::kInput, kLfsAdvice);
             const AnyImage golden = read_any_png(still.golden);
-            compare(golden, drawn, limits, check);
+            const bool same_renderer = text_in_png(bytes, kRenderer) == still.renderer;
+            compare(golden, drawn, limits, same_renderer, check);
             if (check.outcome != Outcome::kSame) check.golden_png = bytes;
         } catch (const Failure& failure) {
             if (check.golden_width_px > 0) throw;  // what is ignored is wrong, not the picture
@@ -140,7 +154,9 @@ StillCheck check_still(const DrawnStill& still, const Image& drawn, const ImageT
             check.why = failure.what();
         }
     }
-    if (check.outcome != Outcome::kSame) check.drawn_png = encode_png(drawn, PngEffort::kSmall);
+    if (check.outcome != Outcome::kSame)
+        check.drawn_png =
+            encode_png(drawn, PngEffort::kSmall, {.texts = {{kRenderer, still.renderer}}});
     return check;
 }
 

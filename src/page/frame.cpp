@@ -38,6 +38,13 @@ std::string packed(const char* id, std::string_view gzipped) {
     return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, base64(gzipped));
 }
 
+std::string packed_motion(const char* id, const Scene& scene, const Motion& motion,
+                          std::string_view version) {
+    std::string json;
+    write_motion_json(scene, motion, version, [&](std::string_view part) { json += part; });
+    return packed(id, gzip(json));
+}
+
 std::string check_box(const char* name, const char* label, bool on) {
     return fmt::format("<label><input type=\"checkbox\" id=\"v-{}\"{}> {}</label>\n", name,
                        on ? " checked" : "", label);
@@ -85,7 +92,7 @@ std::string page_head(std::string_view title, const std::vector<std::string_view
         page_style().text);
 }
 
-std::string viewer_elements(const Motion& motion) {
+std::string viewer_elements(const Motion& motion, const SecondRun* second) {
     std::string speeds;
     for (const int slower : {1, 2, 5, 10, 30, 100, 300, 1000})
         speeds += slower == 1 ? std::string("<option value=\"1\">real time</option>")
@@ -106,24 +113,26 @@ std::string viewer_elements(const Motion& motion) {
         "<span id=\"v-time\">0.000 s</span>\n"
         "<label>Speed <select id=\"v-speed\">{}</select></label>\n"
         "<button type=\"button\" id=\"v-camera\">The scene's camera</button></div>\n"
-        "<div class=\"bar\">{}{}{}{}</div>\n<p id=\"v-event\" class=\"soft\"></p>\n"
+        "<div class=\"bar\">{}{}{}{}{}</div>\n<p id=\"v-event\" class=\"soft\"></p>\n"
         "<p class=\"soft\">Drag to turn; two fingers, or Ctrl and the wheel, zoom. Every instant "
         "is computed from the motion's own pieces, none is between two frames.</p>\n</section>\n",
         counted(motion.balls.size(), "ball"), motion.duration, speeds,
         check_box("trails", "trails", true), check_box("peaks", "peaks", true),
         check_box("arrows", "velocities", false),
-        check_box("names", "names", motion.balls.size() <= 12));
+        check_box("names", "names", motion.balls.size() <= 12),
+        second != nullptr ? check_box("second", "second run, as ghosts", true) : "");
 }
 
-std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version,
-                        KnownTextures& known) {
-    std::string json;
-    write_motion_json(scene, motion, version, [&](std::string_view part) { json += part; });
+std::string viewer_data(const Scene& scene, const Motion& motion, const SecondRun* second,
+                        std::string_view version, KnownTextures& known) {
     return fmt::format(
                "<footer><details><summary>Licence of three.js</summary><pre>{}</pre>"
                "</details></footer>\n",
                escaped_lines(three_licence())) +
-           packed("motion", gzip(json)) + packed("three", three_script().text) +
+           packed_motion("motion", scene, motion, version) +
+           (second != nullptr ? packed_motion("second", second->scene, second->motion, version)
+                              : "") +
+           packed("three", three_script().text) +
            fmt::format(
                "<script type=\"application/json\" id=\"textures\">{}</script>\n"
                "<script>{}</script>\n",

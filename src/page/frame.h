@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motion/motion.h"
+#include "render/runs/second_run.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -23,16 +24,17 @@ std::string page_title(const Scene& scene);
 /// "1 ball", "2 balls".
 std::string counted(std::size_t count, std::string_view of_one);
 
-/// The player's elements, hidden until its script has begun.
-std::string viewer_elements(const Motion& motion);
+/// The player's elements, hidden until its script has begun. `second`: null where there is none.
+std::string viewer_elements(const Motion& motion, const SecondRun* second);
 
 /// Pictures of balls' markings as URIs, by their looks as the motion's JSON has them.
 using KnownTextures = std::map<std::string, std::string>;
 
-/// What the viewer needs, at the end of the body: motion, textures, three.js, its script. What of
-/// the textures is not known is drawn, and known then.
-std::string viewer_data(const Scene& scene, const Motion& motion, std::string_view version,
-                        KnownTextures& known);
+/// What the viewer needs, at the end of the body: motion, that of the second run where it is not
+/// null, textures, three.js, its script. What of the textures is not known is drawn, and known
+/// then.
+std::string viewer_data(const Scene& scene, const Motion& motion, const SecondRun* second,
+                        std::string_view version, KnownTextures& known);
 
 /// A text of several lines, with every line as escaped() has it.
 std::string escaped_lines(std::string_view text);

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "core/markup.h"
-#include "render/draw2d/round_steps.h"
+#include "page/plot_frame.h"
 
 namespace carom {
 
 namespace {
 
-constexpr double kWidth = 480, kHeight = 250, kLeft = 50, kRight = 468, kTop = 10, kBottom = 210;
 constexpr double kFine = 1.5;  // px: what is shorter is drawn as a line
 
 /// Upwards: against gravity; along z without any.
@@ -23,33 +22,20 @@ Vec3 up_of(const Scene& scene) {
     return g > 0 ? Vec3(-scene.simulation.gravity / g) : Vec3(Vec3::UnitZ());
 }
 
-/// The axes' ranges, and the way from values to pixels.
-struct Frame {
-    double end_s = 1, low = 0, high = 1;
-
-    Frame(double duration_s, double least, double most)
-        : end_s(duration_s > 0 ? duration_s : 1), low(std::min(0.0, least)), high(most) {
-        if (!(high > low)) high = low + 1;
-        high += 0.04 * (high - low);
-    }
-    double x(double t) const { return kLeft + t / end_s * (kRight - kLeft); }
-    double y(double value) const {
-        return kBottom - (value - low) / (high - low) * (kBottom - kTop);
-    }
-};
-
-/// Round values in a range, about so many.
-std::vector<double> round_values(double low, double high, int count) {
-    const double step = step_at_least((high - low) / count);
-    std::vector<double> values;
-    for (double k = std::ceil(low / step); k * step <= high; ++k) values.push_back(k * step + 0.0);
-    return values;
+/// Of a plot over time, with 0 in it.
+PlotFrame frame_of(double duration_s, double least, double most) {
+    PlotFrame frame;
+    frame.end = duration_s > 0 ? duration_s : 1;
+    frame.low = std::min(0.0, least);
+    frame.high = most > frame.low ? most : frame.low + 1;
+    frame.high += 0.04 * (frame.high - frame.low);
+    return frame;
 }
 
 /// Points of a curve, one decimal each.
 class Path {
   public:
-    explicit Path(const Frame& frame) : frame_(frame) {}
+    explicit Path(const PlotFrame& frame) : frame_(frame) {}
     void move(double t, double value) { put("M", t, value); }
     /// Nothing where it is too near to see.
     void line(double t, double value) {
@@ -70,30 +56,10 @@ class Path {
         text_ += fmt::format("{}{:.1f} {:.1f}", command, x_, y_);
     }
 
-    const Frame& frame_;
+    const PlotFrame& frame_;
     std::string text_;
     double x_ = 0, y_ = 0;
 };
-
-std::string axes(const Frame& frame, const char* unit) {
-    std::string text;
-    for (const double value : round_values(frame.low, frame.high, 5)) {
-        const double y = frame.y(value);
-        text += fmt::format(
-            "<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
-            "text-anchor=\"end\">{:.6g}</text>\n",
-            kLeft, y, kRight, kLeft - 6, y + 4, value);
-    }
-    for (const double t : round_values(0, frame.end_s, 6))
-        text += fmt::format(
-            "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}v5\"/><text x=\"{0:.1f}\" y=\"{2:.1f}\" "
-            "text-anchor=\"middle\">{3:.6g}</text>\n",
-            frame.x(t), kBottom, kBottom + 18, t);
-    return text + fmt::format(
-                      "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">time, s</text><text "
-                      "x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>\n",
-                      kRight, kHeight - 4, kRight - 2, kTop + 12, unit);
-}
 
 struct PageCurve {
     std::string name;
@@ -101,17 +67,18 @@ struct PageCurve {
     std::size_t color = 0, dash = 0;
 };
 
-std::string plot(const Frame& frame, const char* unit, const std::string& label,
+std::string plot(const PlotFrame& frame, const char* unit, const std::string& label,
                  const std::vector<PageCurve>& curves) {
     std::string text = fmt::format(
         "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-left=\"{}\" "
         "data-right=\"{}\" data-end=\"{}\">\n{}",
-        kWidth, kHeight, escaped(label), kLeft, kRight, frame.end_s, axes(frame, unit));
+        PlotFrame::kWidth, PlotFrame::kHeight, escaped(label), PlotFrame::kLeft, PlotFrame::kRight,
+        frame.end, frame.axes("time, s", unit));
     for (const PageCurve& curve : curves) text += curve.path;
     text += fmt::format(
         "<line class=\"cursor\" visibility=\"hidden\" x1=\"{0}\" x2=\"{0}\" y1=\"{1}\" "
         "y2=\"{2}\"/>\n</svg>\n<ul class=\"key\">\n",
-        kLeft, kTop, kBottom);
+        PlotFrame::kLeft, PlotFrame::kTop, PlotFrame::kBottom);
     for (const PageCurve& curve : curves)
         text += fmt::format(
             "<li><svg viewBox=\"0 0 32 10\" aria-hidden=\"true\"><path class=\"curve s{} d{}\" "
@@ -144,7 +111,7 @@ class HeightCurve {
             }
         }
     }
-    std::string drawn(const Frame& frame, std::size_t color, std::size_t dash) const {
+    std::string drawn(const PlotFrame& frame, std::size_t color, std::size_t dash) const {
         Path path(frame);
         path.move(0, at(0, 0));
         for (std::size_t i = 0; i < pieces_.size(); ++i) add(i, frame, path);
@@ -152,7 +119,7 @@ class HeightCurve {
     }
 
   private:
-    void add(std::size_t i, const Frame& frame, Path& path) const {
+    void add(std::size_t i, const PlotFrame& frame, Path& path) const {
         const Piece& piece = pieces_[i];
         const double seconds = end_of(i) - piece.start;
         if (frame.x(end_of(i)) - frame.x(piece.start) < kFine) {
@@ -187,7 +154,7 @@ std::string height_plot(const Scene& scene, const Motion& motion) {
         heights.emplace_back(motion.balls[i], up, scene.balls[i].radius, motion.duration);
         heights.back().extend(least, most);
     }
-    const Frame frame(motion.duration, least, most);
+    const PlotFrame frame = frame_of(motion.duration, least, most);
     std::vector<PageCurve> curves;
     for (std::size_t i = 0; i < heights.size(); ++i)
         curves.push_back({motion.ball_names[i], heights[i].drawn(frame, i % kColors, i / kColors),
@@ -222,7 +189,7 @@ std::string energy_plot(const Scene& scene, const Motion& motion) {
             most = std::max(most, values[i]);
         }
     }
-    const Frame frame(motion.duration, least, most);
+    const PlotFrame frame = frame_of(motion.duration, least, most);
     constexpr std::array<const char*, 3> kNames = {"sum", "kinetic energy", "potential energy"};
     std::vector<PageCurve> curves;
     for (std::size_t i = 0; i < kNames.size(); ++i) {

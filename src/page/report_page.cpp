@@ -82,13 +82,13 @@ std::string origin(const Scene& scene, const SimulationResult& result, const Rep
 }  // namespace
 
 std::string report_page(const Scene& scene, const SimulationResult& result,
-                        const ReportParts& parts) {
+                        const ReportParts& parts, const SecondRun* second) {
     const Motion& motion = result.motion;
     const std::string title = page_title(scene);
     const auto version = parts.versions.find("carom");
     std::string page = page_head(title, {viewer_script().hash, three_script().hash}) +
                        head_of_page(scene, result, title) + "<main>\n";
-    page += viewer_elements(motion);
+    page += viewer_elements(motion, second);
     page += pictures(scene, motion, parts);
     page += plots(scene, motion);
     page += heading("impacts", "Bounces") + bounce_table(scene, motion);
@@ -100,8 +100,8 @@ std::string report_page(const Scene& scene, const SimulationResult& result,
             escaped_lines(parts.scene_text) + "</pre>\n";
     page += origin(scene, result, parts) + "</main>\n";
     KnownTextures textures;
-    page += viewer_data(scene, motion, version == parts.versions.end() ? "" : version->second,
-                        textures);
+    page += viewer_data(scene, motion, second,
+                        version == parts.versions.end() ? "" : version->second, textures);
     return page + "</body></html>\n";
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "render/runs/second_run.h"
 #include "report/accuracy.h"
 #include "scene/scene.h"
 #include "sim/record/simulation_result.h"
@@ -23,9 +24,9 @@ struct ReportParts {
     std::optional<AccuracyReport> accuracy;
 };
 
-/// The whole page. The same parts give the same bytes. Markings of balls are drawn with OpenGL:
-/// Failure(kRun) as painters have it.
+/// The whole page; `second`: null where there is no second run. The same parts give the same bytes.
+/// Markings of balls are drawn with OpenGL: Failure(kRun) as painters have it.
 std::string report_page(const Scene& scene, const SimulationResult& result,
-                        const ReportParts& parts);
+                        const ReportParts& parts, const SecondRun* second);
 
 }  // namespace carom

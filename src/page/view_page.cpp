@@ -33,17 +33,17 @@ std::string page_without_viewer(const std::string& file, const std::string& cont
 
 }  // namespace
 
-std::string view_page(const Scene& scene, const SimulationResult& result,
+std::string view_page(const Scene& scene, const SimulationResult& result, const SecondRun* second,
                       const std::string& version, int revision, KnownTextures& known) {
     const Motion& motion = result.motion;
     std::string page = page_head(
         page_title(scene), {viewer_script().hash, three_script().hash, watch_script().hash}, true);
     page += fmt::format("<header><h1>{}</h1>\n{}</header>\n<main>\n{}", escaped(page_title(scene)),
-                        watching(revision), viewer_elements(motion));
+                        watching(revision), viewer_elements(motion, second));
     page += "<h2>Heights and energy</h2>\n<div class=\"two\">\n<figure>" +
             height_plot(scene, motion) + "</figure>\n<figure>" + energy_plot(scene, motion) +
             "</figure>\n</div>\n<h2>Bounces</h2>\n" + bounce_table(scene, motion) + "</main>\n";
-    return page + viewer_data(scene, motion, version, known) +
+    return page + viewer_data(scene, motion, second, version, known) +
            fmt::format("<script>{}</script>\n</body></html>\n", watch_script().text);
 }
 

@@ -10,8 +10,9 @@
 namespace carom {
 
 /// Viewer, plots and bounces of a run; loads itself anew when the server has another revision.
-/// `known` is kept from page to page. Failure(kRun) as report_page().
-std::string view_page(const Scene& scene, const SimulationResult& result,
+/// `second`: null where there is no second run. `known` is kept from page to page. Failure(kRun) as
+/// report_page().
+std::string view_page(const Scene& scene, const SimulationResult& result, const SecondRun* second,
                       const std::string& version, int revision, KnownTextures& known);
 
 /// Until the first run of a scene has been simulated.

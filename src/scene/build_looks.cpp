@@ -40,7 +40,9 @@ int resolve_look(Build& build, const Node& reference) {
     const auto known = build.look_index.find(reference.text);
     if (known != build.look_index.end()) return known->second;
     std::vector<std::string> names;
-    for (const auto& [name, index] : build.look_index) names.push_back(name);
+    constexpr std::size_t kMostCompared = 1000;  // the names are copied for each reference
+    if (build.look_index.size() <= kMostCompared && !build.report.is_full())
+        for (const auto& [name, index] : build.look_index) names.push_back(name);
     std::string message = fmt::format("there is no look {}", quoted_excerpt(reference.text));
     message += names.empty() ? "; the file declares none under 'looks'"
                              : suggestion(reference.text, names);

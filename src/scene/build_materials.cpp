@@ -170,9 +170,11 @@ int resolve_material(Build& build, const Node& reference) {
     const auto known = build.material_index.find(reference.text);
     if (known != build.material_index.end()) return known->second;
     if (find_preset(reference.text) != nullptr) return preset_material(build, reference.text);
-    build.report.error(reference,
-                       fmt::format("there is no material {}{}", quoted_excerpt(reference.text),
-                                   suggestion(reference.text, material_names(build))));
+    constexpr std::size_t kMostCompared = 1000;  // the names are copied for each reference
+    const bool few = build.material_index.size() <= kMostCompared && !build.report.is_full();
+    const std::string meant = few ? suggestion(reference.text, material_names(build)) : "";
+    build.report.error(
+        reference, fmt::format("there is no material {}{}", quoted_excerpt(reference.text), meant));
     return 0;
 }
 

@@ -107,13 +107,18 @@ void check_restitution_laws(Build& build) {
     std::vector<int> with_law;
     for (const int material : in_use)
         if (law_of(scene, material) != nullptr) with_law.push_back(material);
-    // Bounds the work where materials are thousands.
-    constexpr int kMostPairs = 5000;
-    int looked_at = 0;
+    // Bounds the work where materials are thousands, or their tables have thousands of entries.
+    constexpr std::size_t kMostPairs = 5000, kMostEntries = 100'000;
+    std::size_t looked_at = 0, entries = 0;
+    const auto entries_of = [&](int material) {
+        const auto* curve = std::get_if<MonotoneCurve>(law_of(scene, material));
+        return curve == nullptr ? std::size_t{1} : curve->x().size();
+    };
     for (const int a : with_law)
         for (const int b : with_law) {
-            if (b < a || !may_meet(a, b) || ruled.contains({a, b}) || ++looked_at > kMostPairs)
-                continue;
+            if (b < a || !may_meet(a, b) || ruled.contains({a, b})) continue;
+            entries += entries_of(a) + entries_of(b);
+            if (++looked_at > kMostPairs || entries > kMostEntries) return;
             const auto falls = falling_separation(*law_of(scene, a), law_of(scene, b));
             if (!falls) continue;
             const auto name = [&](int m) -> const std::string& {

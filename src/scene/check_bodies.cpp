@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <string_view>
 #include <unordered_map>
 
 #include "scene/build.h"
@@ -18,7 +19,7 @@ struct NamedPlace {
 };
 
 /// Says what a name belongs to already; `taken` is looked up only, never walked.
-void check_name(Build& build, std::unordered_map<std::string, NamedPlace>& taken,
+void check_name(Build& build, std::unordered_map<std::string_view, NamedPlace>& taken,
                 const std::string& name, const Node& node, const char* kind) {
     if (name.empty()) return;  // missing or wrong: reported by the validator
     const auto [first, fresh] = taken.emplace(name, NamedPlace{&node, kind});
@@ -64,8 +65,9 @@ void report_surface(Build& build, const SurfaceOverlap& overlap) {
 }  // namespace
 
 void check_names(Build& build) {
-    std::unordered_map<std::string, NamedPlace> taken;
     const Scene& scene = build.scene;
+    std::unordered_map<std::string_view, NamedPlace> taken;  // the names are the scene's
+    taken.reserve(scene.surfaces.size() + scene.balls.size());
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
         check_name(build, taken, scene.surfaces[i].name, *build.surface_origins[i].node, "surface");
     for (std::size_t i = 0; i < scene.balls.size(); ++i)
@@ -77,6 +79,13 @@ void check_overlaps(Build& build) {
     for (const BodyOrigin& origin : build.ball_origins) sound_balls.push_back(origin.sound);
     for (const BodyOrigin& origin : build.surface_origins) sound_surfaces.push_back(origin.sound);
     const OverlapList found = find_overlaps(build.scene, sound_balls, sound_surfaces);
+    if (found.too_many)
+        build.report.error(
+            build.root,
+            fmt::format("too many balls lie abreast of too many surfaces: {} balls "
+                        "and {} surfaces make more than {} pairs to look at; take "
+                        "fewer of either",
+                        build.scene.balls.size(), build.scene.surfaces.size(), kMostComparisons));
 
     // A grid that is too narrow overlaps in thousands of pairs: one per pair of entries is enough.
     std::set<std::pair<const Node*, const Node*>> told;

@@ -188,6 +188,26 @@ std::string syntax_message(const std::string& from_yaml_cpp, SourceMark open) {
     return text;
 }
 
+/// More brackets than this are open at one place, roughly: quotes are looked at, comments are not.
+/// yaml-cpp keeps all tokens of an open bracket, 200 bytes each, before it tells of the first.
+bool opens_too_many(const std::string& text) {
+    constexpr int kMostOpen = 100'000;
+    int open = 0;
+    char quote = 0;
+    for (const char c : text) {
+        if (quote != 0) {
+            if (c == quote || c == '\n') quote = 0;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else if (c == '[' || c == '{') {
+            if (++open > kMostOpen) return true;
+        } else if ((c == ']' || c == '}') && open > 0) {
+            --open;
+        }
+    }
+    return false;
+}
+
 void parse(const std::string& text, YAML::EventHandler& handler) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -217,6 +237,8 @@ std::optional<Node> parse_document(std::string_view text, const std::string& fil
         diagnostics.add({Severity::kError, file, mark, std::move(message)});
         return std::nullopt;
     };
+    if (opens_too_many(source->text()))
+        return fail({1, 1}, fmt::format("nested more than {} levels deep", kMaxDocumentDepth));
     try {
         parse(source->text(), builder);
         // yaml-cpp 0.7 passes a quote that is never closed, unless an explicit end follows it.

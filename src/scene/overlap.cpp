@@ -170,20 +170,23 @@ class BallsByX {
         std::sort(order_.begin(), order_.end(), [&](int a, int b) { return x(a) < x(b); });
     }
 
-    void collect(int surface, std::vector<SurfaceOverlap>& found) const {
+    /// False when all surfaces together have had too many balls to be compared with.
+    bool collect(int surface, std::vector<SurfaceOverlap>& found, std::size_t& compared) const {
         const SurfaceShape& shape = scene_.surfaces[static_cast<std::size_t>(surface)].shape;
         const auto [low, high] = extent_x(shape);
         auto ball = std::lower_bound(order_.begin(), order_.end(), low - largest_,
                                      [&](int index, double bound) { return x(index) < bound; });
         for (; ball != order_.end() && x(*ball) <= high + largest_; ++ball) {
+            if (++compared > kMostComparisons) return false;
             const Ball& one = scene_.balls[static_cast<std::size_t>(*ball)];
             const double distance = signed_distance(shape, one.position);
             const double depth = one.radius - distance;
             if (depth <= touching_depth(shape, one)) continue;
             const double behind = is_unbounded(shape) ? std::max(-distance, 0.0) : 0.0;
             found.push_back({*ball, surface, depth, behind});
-            if (found.size() >= kMostOverlaps) return;
+            if (found.size() >= kMostOverlaps) return true;
         }
+        return true;
     }
 
   private:
@@ -204,9 +207,10 @@ OverlapList find_overlaps(const Scene& scene, const std::vector<bool>& balls,
         return std::tie(a.first, a.second) < std::tie(b.first, b.second);
     });
     const BallsByX by_x(scene, balls);
-    for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < scene.surfaces.size() && !found.too_many; ++i)
         if (surfaces[i] && found.surfaces.size() < kMostOverlaps)
-            by_x.collect(static_cast<int>(i), found.surfaces);
+            found.too_many = !by_x.collect(static_cast<int>(i), found.surfaces, compared);
     std::sort(found.surfaces.begin(), found.surfaces.end(), [](const auto& a, const auto& b) {
         return std::tie(a.ball, a.surface) < std::tie(b.ball, b.surface);
     });

@@ -27,12 +27,18 @@ struct SurfaceOverlap {
     double behind_by = 0;  ///< m; above 0 where the centre lies behind a plane
 };
 
-/// Ordered by indices. At most kMostOverlaps of each: a scene with more is wrong as a whole.
+/// Ordered by indices. `too_many`: the search was given up, see kMostComparisons. At most
+/// kMostOverlaps of each: a scene with more is wrong as a whole.
 struct OverlapList {
     std::vector<BallOverlap> balls;
     std::vector<SurfaceOverlap> surfaces;
+    bool too_many = false;
 };
 inline constexpr std::size_t kMostOverlaps = 10'000;
+
+/// Pairs of a ball and a surface beside it that are looked at: two seconds. A million balls may
+/// have thirty surfaces around all of them.
+inline constexpr std::size_t kMostComparisons = 30'000'000;
 
 /// Searches the bodies whose entry is true. The cost grows like n log n for n balls that do not
 /// overlap, whatever their sizes.

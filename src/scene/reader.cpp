@@ -61,11 +61,14 @@ void build_scene(Build& build) {
 void point_out_odd_blanks(std::string_view text, const std::string& file, Diagnostics& all) {
     Diagnostics result;
     int looked_at = 0;
-    constexpr int kMostLooks = 100;  // each goes through the text
+    // Each goes through the text.
+    constexpr std::size_t kMostBytes = 100'000'000;
+    const int most_looks =
+        static_cast<int>(std::min<std::size_t>(100, kMostBytes / (text.size() + 1)));
     for (Diagnostic d : all.items()) {
         const bool here = d.severity == Severity::kError && d.file == file && d.mark.line > 0 &&
                           d.message.find("not valid YAML") == std::string::npos;
-        if (here && ++looked_at <= kMostLooks)
+        if (here && ++looked_at <= most_looks)
             if (const auto blank = odd_blank_in_line(text, d.mark.line);
                 blank && blank->name != "a tab")
                 d.message += fmt::format("; there is {} in column {}: write a plain space",
@@ -77,12 +80,21 @@ void point_out_odd_blanks(std::string_view text, const std::string& file, Diagno
 
 /// So that messages can show them. Looks at each line of the text once: marks are in order.
 void add_source_lines(std::string_view text, const std::string& file, Diagnostics& all) {
+    constexpr std::size_t kMostBytes = 20'000'000;  // a thousand copies of a line of megabytes
     Diagnostics result;
-    int before = 1;
+    std::string_view line = first_line(text);
+    std::size_t kept = 0;
+    int number = 1;
     for (Diagnostic d : all.items()) {
-        if (d.file == file && d.mark.line >= before) {
-            for (; before < d.mark.line && !text.empty(); ++before) text = after_first_line(text);
-            d.source_line = first_line(text);
+        if (d.file == file && d.mark.line >= number) {
+            if (number < d.mark.line) {
+                for (; number < d.mark.line && !text.empty(); ++number)
+                    text = after_first_line(text);
+                number = d.mark.line;
+                line = first_line(text);
+            }
+            kept += line.size();
+            if (kept <= kMostBytes) d.source_line = line;
         }
         result.add(std::move(d));
     }

@@ -22,6 +22,9 @@ class Report {
     void warning(const Node& at, std::string message);
     void error_in_source(int source, SourceMark mark, std::string message);
 
+    /// True where further mistakes are not listed: their words need not be made.
+    bool is_full() const { return listed_ > kMostListed; }
+
     const std::string& file() const { return sources_.front(); }
     Diagnostics& diagnostics() { return diagnostics_; }
 

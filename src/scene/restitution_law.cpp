@@ -15,8 +15,10 @@ constexpr double kLowestViscoelastic = 5.0 / 6;
 constexpr double kLeastFall = 1e-12;
 
 /// Points that are looked at between two places where a law changes its form, and over all speeds:
-/// so many a decade from ... to ... m/s.
+/// so many a decade from ... to ... m/s. Tables of very many entries are looked at in fewer points
+/// between two of them, but always in the middle.
 constexpr int kPointsBetween = 64;
+constexpr std::size_t kMostPoints = 100'000;
 constexpr int kPointsOfDecade = 16;
 constexpr double kSlowest = 1e-9, kFastest = 1e9;
 
@@ -64,9 +66,10 @@ std::vector<double> speeds_of(const RestitutionLaw& law, const RestitutionLaw* o
     std::erase_if(places, [](double v) { return !(v >= 0) || !(v <= kFastest); });
     std::sort(places.begin(), places.end());
     std::vector<double> speeds = places;
+    const int parts = std::clamp(static_cast<int>(kMostPoints / places.size()), 2, kPointsBetween);
     for (std::size_t i = 0; i + 1 < places.size(); ++i)
-        for (int k = 1; k < kPointsBetween; ++k)
-            speeds.push_back(places[i] + (places[i + 1] - places[i]) * k / kPointsBetween);
+        for (int k = 1; k < parts; ++k)
+            speeds.push_back(places[i] + (places[i + 1] - places[i]) * k / parts);
     const double ratio = std::pow(10.0, 1.0 / kPointsOfDecade);
     for (double v = kSlowest; v <= kFastest; v *= ratio) speeds.push_back(v);
     std::sort(speeds.begin(), speeds.end());

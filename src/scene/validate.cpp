@@ -288,11 +288,13 @@ bool Validator::section(Node& map, Section section) {
     for (Node& child : map.children) {
         const KeySpec* spec = table_.find(section, child.key);
         if (spec == nullptr) {
-            std::string message = fmt::format("unknown key {}", quoted_excerpt(child.key));
-            if (child.key.find(':') != std::string::npos)
-                message += "; a space must follow the ':'";
-            else
-                message += key_suggestion(table_, section, child.key);
+            std::string message;
+            if (!report_.is_full()) {
+                message = fmt::format("unknown key {}", quoted_excerpt(child.key));
+                message += child.key.find(':') != std::string::npos
+                               ? "; a space must follow the ':'"
+                               : key_suggestion(table_, section, child.key);
+            }
             report_.error_at_key(child, std::move(message));
             map.valid = child.valid = false;
         } else {

@@ -127,9 +127,56 @@ TEST(Library, FilmsAreWholeOrNotThere) {
     EXPECT_EQ(15, carom::film(scene, motion, (folder.path / "frames").string()));
     EXPECT_EQ(carom::still(scene, motion, 0.5).rgba,
               carom::read_png((folder.path / "frames" / "frame_00005.png").string()).rgba);
-    const carom::Scene two =
+}
+
+TEST(Library, TwoRunsAreShownWhereASceneNamesThemOrTheCallerDoes) {
+    const carom::Scene plain = small().build();
+    const carom::Motion motion = carom::simulate(plain);
+    EXPECT_FALSE(carom::second_run(plain));
+    const carom::Scene named =
         carom::Scene::from_text(small().yaml(), {{"against", "{set: [\"balls.a.radius=0.11\"]}"}});
-    EXPECT_THROW(carom::still(two, carom::simulate(two), 0), carom::Error);
+    const carom::Scene other =
+        carom::Scene::from_text(small().yaml(), {{"balls.a.radius", "0.11"}});
+    const carom::Against given{other, carom::simulate(other)};
+    ASSERT_TRUE(carom::second_run(named));
+    EXPECT_EQ(given.motion.hash(), carom::second_run(named)->motion.hash());
+    const carom::Picture alone = carom::still(plain, motion, 0.2);
+    const carom::Picture ghosts = carom::still(named, motion, 0.2);
+    EXPECT_NE(alone.rgba, ghosts.rgba);
+    EXPECT_EQ(ghosts.rgba, carom::still(named, motion, 0.2, given).rgba);
+    EXPECT_NE(ghosts.rgba,
+              carom::still(named, motion, 0.2, carom::Against{other, given.motion, true}).rgba);
+
+    carom::SceneBuilder strange;
+    strange.duration(1.5).plane("floor", {0, 0, 1}, 0).ball({.name = "z", .position = {0, 0, 1}});
+    const carom::Scene z = strange.build();
+    EXPECT_THROW(carom::still(plain, motion, 0, carom::Against{z, carom::simulate(z)}),
+                 carom::Error);
+    EXPECT_THROW(carom::still(plain, motion, 0, carom::Against{z, motion}), carom::Error);
+}
+
+// The ray of the pixel right below the picture's middle is t (s, 1, -s) from the eye, 3 m before a
+// ball of 0.1 m: (1 + 2 s^2) t^2 - 6 t + 9 - 0.01 = 0.
+TEST(Library, LayersSayWhatPixelsShow) {
+    carom::SceneBuilder builder = small();
+    builder.set("camera", "{from: [0, -3, 0.6], to: [0, 0, 0.6], fov_deg: 40}");
+    const carom::Scene scene = builder.build();
+    const carom::Motion motion = carom::simulate(scene);
+    const auto layers = carom::layers(scene, motion, 0, {"segmentation", "depth", "normals"});
+    ASSERT_EQ(3U, layers.size());
+    const std::size_t middle = 18 * 64 + 32;
+    const double slope = std::tan(std::acos(-1) / 9) * 0.5 / 18, k = 1 + 2 * slope * slope;
+    const double t = (3 - std::sqrt(9 - k * 8.99)) / k;
+    EXPECT_EQ("segmentation", layers[0].name);
+    EXPECT_EQ(1, layers[0].ids.at(middle));
+    EXPECT_TRUE(layers[0].values.empty());
+    EXPECT_NEAR(t, layers[1].values.at(middle), 1e-6);
+    EXPECT_EQ(3, layers[2].channels);
+    EXPECT_NEAR((t - 3) / 0.1, layers[2].values.at(3 * middle + 1), 1e-6);
+    EXPECT_THROW(carom::layers(scene, motion, 0, {"deep"}), carom::Error);
+    EXPECT_THROW(carom::layers(scene, motion, -1, {"depth"}), carom::Error);
+    EXPECT_THROW(carom::layers(scene, motion, 0, {"depth"}, carom::Against{scene, motion, true}),
+                 carom::Error);
 }
 
 TEST(Library, FilmsHaveTheSoundThatTheSceneAsksFor) {

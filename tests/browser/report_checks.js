@@ -4,15 +4,9 @@
 // {time, png}: segmentation layers of stills of the same scene.
 'use strict';
 const fs = require('fs'), path = require('path'), zlib = require('zlib');
+const {Checks, launch, listen, look} = require('./common.js');
 const [, , chromium, page_file, folder, stills_file] = process.argv;
-const need = (name) => require(path.join(folder, 'node_modules', name));
-const puppeteer = need('puppeteer-core');
-
-let failed = 0, passed = 0;
-const check = (what, ok, detail = '') => {
-  ok ? ++passed : ++failed;
-  console.log(`${ok ? 'ok  ' : 'FAIL'} ${what}${detail === '' ? '' : ': ' + detail}`);
-};
+const checks = new Checks('check_report'), check = (...words) => checks.check(...words);
 
 // In the page: the middles of the balls' masks as the viewer draws them, flat and unshaded.
 const masks = async (t) => {
@@ -79,19 +73,8 @@ const layer_masks = (file, count) => {
 };
 
 const main = async () => {
-  const browser = await puppeteer.launch({
-    executablePath: chromium, headless: true,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-           '--ignore-gpu-blocklist', '--disable-background-networking'],
-  });
-  const page = await browser.newPage(), said = [], asked = [];
-  page.on('console', (message) => {
-    if (['error', 'warning', 'warn'].includes(message.type())) said.push(message.text());
-  });
-  page.on('pageerror', (error) => said.push(String(error)));
-  page.on('request', (request) => {
-    if (!/^(data|blob|file):/.test(request.url())) asked.push(request.url());
-  });
+  const browser = await launch(chromium, folder);
+  const page = await browser.newPage(), {said, asked} = listen(page);
   await page.setOfflineMode(true);
   await page.setViewport({width: 1280, height: 900});
   await page.goto('file://' + path.resolve(page_file));
@@ -146,27 +129,10 @@ const main = async () => {
   check('a click on a bounce shows it, the cursors too', linked.at === linked.impact && linked.off < 1e-9);
   check('steps go from impact to impact', linked.next > linked.at && linked.back === linked.at);
 
-  for (const scheme of ['light', 'dark']) {
-    await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
-    // The policy lets no script in from outside; the debugger's own evaluation is none.
-    await page.evaluate(fs.readFileSync(path.join(folder, 'node_modules/axe-core/axe.min.js'), 'utf8'));
-    const {violations} = await page.evaluate(() => axe.run(document));
-    check(`axe finds nothing (${scheme})`, violations.length === 0,
-          violations.map((v) => `${v.id} ${v.nodes.slice(0, 2).map((n) => n.html.slice(0, 90))}`).join('; '));
-    for (const [name, width, height] of [['desktop', 1280, 900], ['phone', 390, 844]]) {
-      await page.setViewport({width, height});
-      await page.evaluate((t) => { scrollTo(0, 0); carom.viewer.show(t); }, stills[5].time);
-      await new Promise((done) => setTimeout(done, 400));
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-      check(`nothing reaches beyond the ${name} (${scheme})`, wide <= width, `${wide} px`);
-      await page.screenshot({path: path.join(folder, `${name}-${scheme}.png`)});
-      await page.screenshot({path: path.join(folder, `${name}-${scheme}-all.png`), fullPage: true});
-    }
-  }
+  await look(checks, page, folder, '', (t) => { scrollTo(0, 0); carom.viewer.show(t); }, stills[5].time);
   check('no word on the console', said.length === 0,
         said.slice(0, 5).join(' | '));
   check('no request', asked.length === 0, asked.slice(0, 3).join(' '));
-  await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: 'light'}]);
   await page.pdf({path: path.join(folder, 'page.pdf'), format: 'A4', preferCSSPageSize: true});
 
   const plain = await browser.newPage();
@@ -176,8 +142,7 @@ const main = async () => {
   const seen = await plain.$$eval('h2, table, svg, img', (all) => all.length);
   check('without JavaScript pictures and tables are there', seen > 10, `${seen} elements`);
   await browser.close();
-  console.log(`check_report: ${passed} passed, ${failed} failed`);
-  process.exit(failed ? 1 : 0);
+  checks.end();
 };
 main().catch((error) => {
   console.error(error);

@@ -2,23 +2,15 @@
 // usage: node view_checks.js CHROMIUM CAROM SCENE.yaml FOLDER
 // SCENE.yaml is changed. FOLDER holds node_modules (puppeteer-core).
 'use strict';
-const fs = require('fs'), path = require('path'), {spawn} = require('child_process');
+const fs = require('fs'), {spawn} = require('child_process');
+const {Checks, launch} = require('./common.js');
 const [, , chromium, program, scene, folder] = process.argv;
-const puppeteer = require(path.join(folder, 'node_modules', 'puppeteer-core'));
-
-let failed = 0, passed = 0;
-const check = (what, ok, detail = '') => {
-  ok ? ++passed : ++failed;
-  console.log(`${ok ? 'ok  ' : 'FAIL'} ${what}${detail === '' ? '' : ': ' + detail}`);
-};
+const checks = new Checks('check_view'), check = (...words) => checks.check(...words);
 
 const main = async () => {
   const server = spawn(program, ['view', scene]);
   const address = await new Promise((done) => server.stdout.once('data', (data) => done(String(data).trim())));
-  const browser = await puppeteer.launch({
-    executablePath: chromium, headless: true,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-  });
+  const browser = await launch(chromium, folder);
   const page = await browser.newPage(), said = [];
   page.on('pageerror', (error) => said.push(String(error)));
   page.on('console', (message) => { if (message.type() === 'error') said.push(message.text()); });
@@ -54,8 +46,7 @@ const main = async () => {
   await page.waitForFunction("!document.getElementById('lost').hidden", {timeout: 60000});
   check('the page says when the server has ended', true);
   await browser.close();
-  console.log(`check_view: ${passed} passed, ${failed} failed`);
-  process.exit(failed ? 1 : 0);
+  checks.end();
 };
 main().catch((error) => {
   console.error(error);

@@ -112,6 +112,34 @@ class Limits(GoldenTest):
         self.assertIn(f"{count} pixels differ, {count - allowed} more than the {allowed} (0.1 %) allowed", only_second)
         self.check(0, *self.moved, "--tolerance", 255, "--max-differing", 1, reports=False)
 
+    def test_the_same_renderer_is_held_to_one(self):
+        self.update()
+        golden = self.golden(0)
+        data, rows = golden.read_bytes(), pixels(golden.read_bytes())
+        self.check(0)
+        renderer = next(s["renderer"] for s in self.report()["stills"])
+        said = chunk(b"tEXt", b"Renderer\0" + renderer.encode())
+        self.assertIn(said, data)
+
+        def changed(off, text):
+            # One channel of one pixel in the sky.
+            r, g, b = rows[3][50][:3]
+            made = png(96, 54, lambda x, y: (r - off, g, b) if (x, y) == (50, 3) else rows[y][x][:3], colour=RGB,
+                       extra=text)
+            golden.write_bytes(made)
+
+        other = chunk(b"tEXt", b"Renderer\0another one")
+        for off, text, code in ((0, said, 0), (1, said, 0), (2, said, 5), (2, b"", 0), (2, other, 0), (3, other, 5)):
+            changed(off, text)
+            self.check(code)
+        changed(2, said)
+        found = self.check(5).stdout
+        self.assertIn("off by 2, 1 more than the 1 of 255 allowed to the renderer that drew the golden", found)
+        self.assertEqual({"tolerance": 2, "max_differing": 0.01}, self.report()["limits"])
+        self.check(0, "--tolerance", 2)
+        self.update()
+        self.assertEqual(data, golden.read_bytes())
+
     def test_update_says_what_it_would_write(self):
         dry = self.update(*self.base, "--dry-run").stdout
         self.assertIn(f"would write: {self.golden(0)}: there is no golden", dry)

@@ -41,6 +41,20 @@ class Headers(ProgramTest):
         self.assertIn(f"## {macros} ", (SOURCE / "CHANGELOG.md").read_text())
         self.assertIn(f"version: {macros}\n", (SOURCE / "CITATION.cff").read_text())
 
+    def test_both_ways_of_packaging_say_the_same(self):
+        control = (SOURCE / "debian" / "control").read_text()
+        changelog = (SOURCE / "debian" / "changelog").read_text()
+        cpack = (SOURCE / "cmake" / "packages.cmake").read_text()
+        maintainer = re.search(r"^Maintainer: (.*)$", control, re.M)[1]
+        self.assertNotIn(".invalid", maintainer)
+        self.assertIn(f"\n -- {maintainer}  ", changelog)
+        self.assertIn(f'CPACK_PACKAGE_CONTACT "{maintainer}"', cpack)
+        self.assertIn(f"  - name: {maintainer.split(' <')[0]}\n", (SOURCE / "CITATION.cff").read_text())
+        program = control.split("Package: carom\n")[1].split("\n\n")[0]
+        for field in ("Recommends", "Suggests"):
+            names = re.search(rf"^{field}: (.*)$", program, re.M)[1].replace("${carom:Layers}", "${layer_packages}")
+            self.assertIn(f'PROGRAM_PACKAGE_{field.upper()} "{names}"', cpack)
+
     def test_the_example_is_the_one_of_the_documents(self):
         example = (SOURCE / "examples" / "consumer" / "consumer.cpp").read_text()
         document = (SOURCE / "docs" / "library.md").read_text()

@@ -6,9 +6,10 @@ import hashlib
 import html.parser
 import json
 import re
+import statistics
 import unittest
 
-from program import ProgramTest, SOURCE, run
+from program import SMALL_SCENE, ProgramTest, SOURCE, run
 
 HOSTILE = """\
 carom: 1
@@ -23,6 +24,18 @@ balls:
   - {name: a, radius: 0.1, material: rubber, position: [0, 0, 0.6]}
 film: {size: [160, 90], fps: 10}
 overlay: {caption: "</script><script>alert(4)</script>"}
+"""
+
+
+SWEEP = """\
+base: scene.yaml
+axes:
+  balls.a.position[2]: {from: 0.6, to: 1.6, steps: 3}
+  balls.a.radius: [0.05, 0.1, 0.15, 0.2]
+  simulation.duration: [2]
+  film.size: {choice: [[64, 64]]}
+results: {top: 'peak("a", 1)'}
+outputs: {stills: [0.2]}
 """
 
 
@@ -134,6 +147,70 @@ class Report(ProgramTest):
         self.assert_exit(2, run("report", self.scene, other, "-o", page, "-y", "--accuracy"))
         bad = self.write("bad.yaml", "carom: 1\nbals: []\n")
         self.assert_exit(3, run("report", self.scene, bad, "-o", self.folder / "none.html"))
+        self.assertNotIn("none.html", self.names())
+
+    def test_a_second_run_is_there_as_ghosts(self):
+        """Its own motion, where it touches the same surfaces; no script where there is none."""
+        other = "against: {{set: [{}], view: side}}\n"
+        lower = self.write("lower.yaml", SMALL_SCENE + other.format("'balls.a.position[2]=0.4'"))
+        page = Page(self.report(lower))
+        first, second = (json.loads(gzip.decompress(base64.b64decode(page.texts[f"script#{name}"])))
+                         for name in ("motion", "second"))
+        self.assertEqual(0.4, second["balls"][0]["pieces"][0]["p"][2])
+        self.assertNotEqual(0.4, first["balls"][0]["pieces"][0]["p"][2])
+        self.assertIn("v-second", [a.get("id") for a in page.named("input")])
+        moved = self.write("moved.yaml", SMALL_SCENE + other.format("'surfaces.floor.plane.offset=-1'"))
+        for scene in (moved, self.scene):
+            page = Page(self.report(scene))
+            self.assertNotIn("script#second", page.texts)
+            self.assertNotIn("v-second", [a.get("id") for a in page.named("input")])
+
+    def sweep(self, text):
+        sweep, folder = self.write("sweep.yaml", text), self.folder / "runs of <b>"
+        self.assert_exit(0, run("sweep", sweep, "-o", folder, "-q"))
+        return folder
+
+    def test_the_folder_of_a_sweep(self):
+        """Plots of each result over each axis, with a series for each value of the other one."""
+        folder = self.sweep(SWEEP)
+        text = self.report(folder)
+        page = Page(text)
+        self.assertEqual("runs of <b>: 12 runs", page.texts["title#"].strip())
+        # e^2 = 0.64 of the gap that it falls through.
+        tops = [0.64 * (z - r) for z in (0.6, 1.1, 1.6) for r in (0.05, 0.1, 0.15, 0.2)]
+        self.assertEqual([f"top over {axis}: 12 points, {min(tops):.4g} to {max(tops):.4g}"
+                          for axis in ("balls.a.position[2]", "balls.a.radius")],
+                         [a["aria-label"] for a in page.named("svg") if "aria-label" in a])
+        self.assertIn(f'<td class="n">{statistics.median(tops):.6g}</td><td class="n">'
+                      f'{statistics.mean(tops):.6g}</td>', text)
+        self.assertEqual(12, text.count('<tr><th scope="row">') - 1)
+        self.assertEqual([4, 3], [plot.split("<ul")[0].count('class="points')
+                                  for plot in text.split("</figure>")[:2]])
+        self.assertEqual(12, len(page.named("img")))
+        self.assertEqual({("64", "64")}, {(a["width"], a["height"]) for a in page.named("img")})
+        self.assertIn("Run 5: balls.a.position[2] 1.1, balls.a.radius 0.1",
+                      [a["alt"] for a in page.named("img")])
+        self.assertEqual(text, self.report(folder))
+
+    def test_a_thousand_runs_are_a_small_page(self):
+        folder = self.sweep(SWEEP.split("axes:")[0] + "mode: random\ncount: 1000\naxes: {\"balls.a.position[2]\": "
+                            "{uniform: [0.6, 2]}, balls.a.mass: {log_uniform: [0.01, 10]}}\nresults: "
+                            "{top: 'peak(\"a\", 1)', left: 'energy(\"a\", duration)'}\n")
+        text = self.report(folder)
+        self.assertLess(len(text.encode()), 2_000_000)
+        self.assertEqual(1000 + 2, text.count('<tr><th scope="row">'))
+        self.assertIn("log₁₀ balls.a.mass", text)
+
+    def test_folders_without_a_table_are_refused(self):
+        folder = self.sweep(SWEEP)
+        for words in ([folder, self.scene], [folder, "--accuracy"], [folder, "--size", "64x64"],
+                      [self.folder]):
+            self.assert_exit(2, run("report", *words, "-o", self.folder / "none.html"))
+        index = folder / "index.csv"
+        index.write_text(index.read_text() + "12,1\n")
+        wrong = run("report", folder, "-o", self.folder / "none.html")
+        self.assert_exit(2, wrong)
+        self.assertIn("index.csv:14: 2 cells in a table of 9 columns", wrong.stderr)
         self.assertNotIn("none.html", self.names())
 
     def test_figure_9_is_small(self):

@@ -59,6 +59,18 @@ class View(ProgramTest):
         os.replace(self.write("new.yaml", SMALL_SCENE), self.scene)
         self.page_with('id="motion"')
 
+    def test_the_page_follows_the_scene_that_it_is_shown_against(self):
+        other = self.write("other.yaml", SMALL_SCENE)
+        self.scene.write_text(SMALL_SCENE + "against: {scene: other.yaml}\n")
+        self.serve()
+        self.page_with('id="second"')
+        other.write_text(SMALL_SCENE.replace("radius", "raduis"))
+        self.assertTrue("raduis" in self.page_with(r"other.yaml:8:\d+: error"))
+        other.write_text(SMALL_SCENE)
+        self.page_with('id="second"')
+        self.scene.write_text(SMALL_SCENE)
+        self.page_with('id="motion"(?!.*id="second")')
+
     def test_a_page_says_that_the_scene_is_simulated(self):
         self.scene.write_text(GAS)
         self.serve()

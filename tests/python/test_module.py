@@ -104,6 +104,67 @@ class Module(unittest.TestCase):
         picture = carom.read_png(self.folder / "B" / "frame_00003.png")
         self.assertTrue(np.array_equal(picture, carom.still(scene, motion, 0.3)))
 
+    def test_two_runs_are_those_of_the_program(self):
+        program, path = os.environ["CAROM"], self.folder / "s.yaml"
+        change = {"balls.a.position": [0, 0, 0.7]}
+        for view in ("ghost", "side"):
+            key = f"against: {{set: ['balls.a.position=[0, 0, 0.7]'], view: {view}}}\n"
+            path.write_text(TEXT + key)
+            subprocess.run([program, "still", path, "--time", "0.3", "-o", self.folder / "p.png", "-y"], check=True)
+            wanted = carom.read_png(self.folder / "p.png")
+            named = carom.load(path)
+            self.assertTrue(np.array_equal(wanted, carom.still(named, self.motion, 0.3)))
+            run = carom.second_run(named)
+            self.assertEqual(view, run.view)
+            path.write_text(TEXT)  # the same file, as its second run is named by it
+            plain, other = carom.load(path), carom.load(path, set=change)
+            given = carom.Against(other, carom.simulate(other), view)
+            self.assertEqual(run.motion.hash, given.motion.hash)
+            self.assertTrue(np.array_equal(wanted, carom.still(plain, self.motion, 0.3, against=given)))
+            path.write_text(TEXT + key)
+            subprocess.run([program, "render", path, "-o", self.folder / f"P{view}", "-q"], check=True)
+            self.assertEqual(10, carom.film(named, self.motion, self.folder / f"F{view}", against=run))
+            for name in sorted(p.name for p in (self.folder / f"P{view}").iterdir()):
+                self.assertEqual((self.folder / f"P{view}" / name).read_bytes(),
+                                 (self.folder / f"F{view}" / name).read_bytes())
+        self.assertIsNone(carom.second_run(self.scene))
+        with self.assertRaises(ValueError):
+            carom.still(self.scene, self.motion, 0, against=(self.scene, self.motion, "beside"))
+        strange = carom.load(TEXT.replace("name: a,", "name: b,"))
+        for wrong in ((strange, self.motion), (strange, carom.simulate(strange))):
+            with self.assertRaises(carom.Error):
+                carom.still(self.scene, self.motion, 0, against=wrong)
+
+    def test_layers_are_those_of_the_program(self):
+        program, path = os.environ["CAROM"], self.folder / "s.yaml"
+        path.write_text(TEXT)
+        names = ["depth", "distance", "segmentation", "normals", "flow", "backflow", "coordinates"]
+        found = carom.layers(self.scene, self.motion, 0.3, names)
+        self.assertEqual(names, list(found))
+        for name, layer in found.items():
+            channels = () if name in ("depth", "distance", "segmentation") else (3,)
+            self.assertEqual((36, 64, *channels), layer.shape, name)
+            self.assertEqual(np.uint16 if name == "segmentation" else np.float32, layer.dtype)
+        self.assertEqual({0, 1, 2}, set(np.unique(found["segmentation"])))
+        ball = found["segmentation"] == 1
+        np.testing.assert_allclose(np.linalg.norm(found["normals"][ball], axis=-1), 1, atol=1e-6)
+        np.testing.assert_allclose(np.linalg.norm(found["coordinates"][ball], axis=-1), 0.1, atol=1e-6)
+        # The files of film() are those of the program, byte for byte.
+        subprocess.run([program, "render", path, "-o", self.folder / "P", "-q", "--layers", ",".join(names)],
+                       check=True)
+        carom.film(self.scene, self.motion, self.folder / "F", layers=names)
+        files = sorted(p.name for p in (self.folder / "P").iterdir())
+        self.assertEqual(10 * (1 + len(names)) + 1, len(files))
+        for name in files:
+            self.assertEqual((self.folder / "P" / name).read_bytes(), (self.folder / "F" / name).read_bytes(), name)
+        for wrong in (["deep"], ["depth", "depth"]):
+            with self.assertRaises(carom.Error):
+                carom.layers(self.scene, self.motion, 0.3, wrong)
+        with self.assertRaises(carom.Error):
+            carom.layers(self.scene, self.motion, 0.3, "depth", against=(self.scene, self.motion, "side"))
+        with self.assertRaises(carom.Error):
+            carom.film(self.scene, self.motion, self.folder / "f.mp4", layers="depth")
+
     def test_pictures_of_every_shape(self):
         grey = np.arange(12, dtype=np.uint8).reshape(3, 4)
         for picture in (grey, np.dstack([grey] * 3), np.dstack([grey] * 3 + [np.full_like(grey, 255)])):
@@ -184,7 +245,7 @@ class Module(unittest.TestCase):
         result = subprocess.run([sys.executable, "-c", "\n".join(blocks)], cwd=self.folder, text=True,
                                 capture_output=True, timeout=300)
         self.assertEqual("", result.stderr)
-        self.assertEqual({"still.png", "film.mp4"}, {p.name for p in self.folder.iterdir()})
+        self.assertEqual({"still.png", "film.mp4", "two.mp4", "frames"}, {p.name for p in self.folder.iterdir()})
 
 
 if __name__ == "__main__":

@@ -170,5 +170,19 @@ TEST(FlowText, ReadsBackAsTheSame) {
     }
 }
 
+TEST(Plan, AHypercubeThatTakesTooLongToShuffleIsRefused) {
+    const auto messages = [](int axes) {
+        std::string text = "base: base.yaml\nmode: lhs\ncount: 10000000\naxes:\n";
+        for (const char* path : {"balls.a.mass", "balls.a.radius", "film.fps"})
+            if (axes-- > 0) text += std::string("  ") + path + ": {uniform: [0.05, 0.06]}\n";
+        std::string all;
+        for (const Diagnostic& d : SweepFiles(text).read().diagnostics.items()) all += d.message;
+        return all;
+    };
+    EXPECT_EQ(messages(2), "");
+    EXPECT_NE(messages(3).find("10000000 runs of 3 axes are too many"), std::string::npos)
+        << messages(3);
+}
+
 }  // namespace
 }  // namespace carom

@@ -61,8 +61,10 @@ carom.pattern = (look) => {
 };
 
 carom.Stage = class {
-  constructor(motion, textures) {
+  // `second`: the motion of the run that is shown as ghosts, or null.
+  constructor(motion, second, textures) {
     this.motion = motion;
+    this.second = second;
     this.scene = new THREE.Scene();
     this.measure();
     this.add_lights();
@@ -82,16 +84,30 @@ carom.Stage = class {
       this.scene.add(mesh);
       return mesh;
     });
+    this.add_ghosts(sphere);
     this.add_trails();
     this.add_peaks();
     this.add_arrows();
     this.changed = () => {};
   }
 
+  // The second run's balls: seen through, without shadows, in the colour that films have for them.
+  add_ghosts(sphere) {
+    this.ghosts = new THREE.Group();
+    const material = new THREE.MeshPhongMaterial({color: '#4338ca', transparent: true, opacity: 0.45,
+                                                  depthWrite: false});
+    for (const ball of this.second ? this.second.balls : []) {
+      const mesh = new THREE.Mesh(sphere, material);
+      mesh.scale.setScalar(ball.radius);
+      this.ghosts.add(mesh);
+    }
+    this.scene.add(this.ghosts);
+  }
+
   // The box of all that happens, and its middle.
   measure() {
     this.box = new THREE.Box3();
-    for (const ball of this.motion.balls)
+    for (const ball of [...this.motion.balls, ...(this.second ? this.second.balls : [])])
       for (const piece of ball.pieces) {
         const p = carom.vector(piece.p), r = ball.radius;
         this.box.expandByPoint(p.clone().subScalar(r));
@@ -288,6 +304,8 @@ carom.Stage = class {
       if (this.trails.visible) this.show_trail(i, t, back, place);
       if (this.arrows.visible) this.show_arrow(this.arrows.children[i], ball, t, place);
     });
+    if (this.ghosts.visible)
+      this.ghosts.children.forEach((ghost, i) => ghost.position.set(...this.second.balls[i].position(t)));
     this.ends.geometry.attributes.position.needsUpdate = true;
     let count = 0;
     while (count < this.peaks.length && this.peaks[count].time <= t) ++count;

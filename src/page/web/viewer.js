@@ -2,8 +2,9 @@
 // The player: its controls, and all on the page that follows its instant.
 
 carom.Viewer = class {
-  constructor(motion, textures) {
+  constructor(motion, second, textures) {
     this.motion = motion;
+    this.second = second;
     this.t = 0;
     this.playing = false;
     this.element = (name) => document.getElementById('v-' + name);
@@ -11,7 +12,7 @@ carom.Viewer = class {
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: true});
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
-    this.stage = new carom.Stage(motion, textures);
+    this.stage = new carom.Stage(motion, second, textures);
     this.stage.changed = () => this.draw();
     this.eye = new carom.Eye(this.stage, canvas, () => this.draw());
     this.names = this.spans(Math.min(motion.balls.length, 40));
@@ -39,7 +40,7 @@ carom.Viewer = class {
     on('before', () => this.step(-1));
     on('after', () => this.step(1));
     on('camera', () => this.eye.back_to_scene());
-    for (const name of ['trails', 'peaks', 'arrows', 'names'])
+    for (const name of ['trails', 'peaks', 'arrows', 'names', ...(this.second ? ['second'] : [])])
       this.element(name).addEventListener('change', () => this.show(this.t));
     const scrub = this.element('scrub');
     scrub.max = this.motion.duration;
@@ -126,12 +127,13 @@ carom.Viewer = class {
     this.t = Math.min(Math.max(t, 0), this.motion.duration);
     for (const name of ['trails', 'arrows']) this.stage[name].visible = this.element(name).checked;
     this.stage.marks.visible = this.element('peaks').checked;
+    this.stage.ghosts.visible = Boolean(this.second) && this.element('second').checked;
     this.stage.show(this.t, 2);
     if (!this.eye.free) this.eye.follow(this.t);
     this.element('scrub').value = this.t;
     const digits = this.speed < 0.05 ? 6 : 3;
     this.element('time').textContent = `${this.t.toFixed(digits)} s`;
-    this.element('event').textContent = this.event_text();
+    this.element('event').textContent = [this.event_text(), this.apart_text()].filter(Boolean).join('; ');
     for (const move of this.cursors) move(this.t);
     this.draw();
   }
@@ -142,6 +144,20 @@ carom.Viewer = class {
     const [time, ball, other, kind] = event, speed = event[10];
     const text = `${time.toFixed(4)} s: ${kind}, ${ball} and ${other}`;
     return speed === undefined ? text : `${text}, ${speed.toPrecision(4)} m/s`;
+  }
+
+  // How far balls of equal names are apart in the two runs, the farthest ones.
+  apart_text() {
+    if (!this.stage.ghosts.visible) return '';
+    let most = -1, name = '';
+    for (const ball of this.motion.balls) {
+      const other = this.second.balls.find((one) => one.name === ball.name);
+      if (!other) continue;
+      const [a, b] = [ball.position(this.t), other.position(this.t)];
+      const metres = Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      if (metres > most) [most, name] = [metres, ball.name];
+    }
+    return most < 0 ? '' : `${name} is ${most.toPrecision(4)} m from its ghost`;
   }
 
   draw() {
@@ -197,10 +213,12 @@ carom.Viewer = class {
     script.textContent = await carom.unpacked('three');
     document.head.append(script);
     if (!window.THREE) throw new Error('it does not run three.js');
-    const motion = new carom.Motion(JSON.parse(await carom.unpacked('motion')));
+    const motion_of = async (id) => new carom.Motion(JSON.parse(await carom.unpacked(id)));
+    const motion = await motion_of('motion');
+    const second = document.getElementById('second') ? await motion_of('second') : null;
     const textures = JSON.parse(document.getElementById('textures').textContent);
     document.getElementById('viewer').hidden = false;
-    carom.viewer = new carom.Viewer(motion, textures);
+    carom.viewer = new carom.Viewer(motion, second, textures);
     window.carom = carom;
   } catch (error) {
     document.getElementById('viewer').hidden = true;

@@ -86,6 +86,10 @@ void check_runs(const Scene& first, const SecondRun& second) {
                                   surface));
 }
 
+bool same_surfaces(const Scene& first, const Scene& second) {
+    return odd_surface(first, second).empty();
+}
+
 Apart farthest_apart(const Motion& first, const Motion& second, const std::vector<BallPair>& pairs,
                      double t) {
     Apart apart;

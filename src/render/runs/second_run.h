@@ -43,6 +43,9 @@ std::string run_caption(const SecondRun& runs, bool second, bool brief = false);
 /// the other, or a ghost would bounce off surfaces that the picture does not show.
 void check_runs(const Scene& first, const SecondRun& second);
 
+/// Whether ghosts of the second run touch what the first one shows.
+bool same_surfaces(const Scene& first, const Scene& second);
+
 /// The greatest distance of two balls of equal names at `t`.
 struct Apart {
     double metres = 0;

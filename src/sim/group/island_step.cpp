@@ -21,6 +21,9 @@ constexpr double kRelaxation = 0.5;
 /// Overlaps up to this fraction of the smaller radius stay, so that resting balls do not move.
 constexpr double kSlop = 1e-9;
 
+/// What moving overlapping balls apart may take of the kinetic energy: they go on moving.
+constexpr double kLiftPart = 0.5;
+
 /// Potentials follow speeds after so many rounds.
 constexpr int kEnergyRounds = 3;
 
@@ -100,7 +103,9 @@ Nearest IslandStep::gap(const Contact& c, double ahead) const {
     return nearest_on(other, x, radius);
 }
 
-void IslandStep::correct_positions() {
+/// Whether there were any.
+bool IslandStep::part_overlaps() {
+    bool any = false;
     std::vector<Vec3> push(balls_.size());
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         // All from the same places, so that what is symmetric stays so.
@@ -120,8 +125,23 @@ void IslandStep::correct_positions() {
             push[index_of(c.ball)] += ours * apart;
             if (!c.other.is_surface) push[index_of(c.other.index)] -= theirs * apart;
         }
-        if (!moved) return;
+        if (!moved) return any;
+        any = true;
         for (std::size_t i = 0; i < balls_.size(); ++i) results_[i].start.position += push[i];
+    }
+    return any;
+}
+
+void IslandStep::correct_positions() {
+    const std::vector<Vec3> old_places = start_places();
+    if (!part_overlaps()) return;
+    const double lift = account_.lift(old_places, start_places());
+    const double most = kLiftPart * account_.kinetic(start_velocities());
+    if (lift <= most) return;
+    const double part = most / lift;
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+        Vec3& x = results_[i].start.position;
+        x = old_places[i] + part * (x - old_places[i]);
     }
 }
 

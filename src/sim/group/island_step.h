@@ -47,7 +47,8 @@ class IslandStep {
     /// Shorter after solve() where the energy would have risen on the way.
     double seconds() const { return seconds_; }
 
-    /// Moves overlapping balls apart, the lighter ones more. Speeds are not touched.
+    /// Moves overlapping balls apart, the lighter ones more, as far as their speeds can pay for the
+    /// lift: what rests stays as it is. Speeds are not touched yet.
     void correct_positions();
     void solve(IslandSolver& solver);
     /// Nothing moves, slips or changes its spin faster than this [m/s].
@@ -68,6 +69,7 @@ class IslandStep {
     void resist_rolling(std::vector<ImpactBody>& moving,
                         const std::vector<SolverContact>& local) const;
     void set_rates();
+    bool part_overlaps();
     std::vector<Vec3> start_places() const;
     std::vector<Velocities> start_velocities() const;
     std::vector<Vec3> end_places() const;

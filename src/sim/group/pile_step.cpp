@@ -41,7 +41,7 @@ constexpr double kRelaxation = 0.4;
 /// Overlaps up to this fraction of the smallest radius stay, so that resting balls do not move.
 constexpr double kSlop = 1e-5;
 
-/// What parting overlaps may take of the energy that the step has lost: it never gains.
+/// What parting overlaps may take of the energy that the step loses: it never gains.
 constexpr double kOverlapBudget = 0.5;
 
 }  // namespace
@@ -80,15 +80,17 @@ double PileStep::solve(double now, double seconds) {
     build_rows();
     const double before = kinetic_energy();
     solve_impacts();
+    const double at_start = kinetic_energy();
     shorten(now);
     solve_forces();
-    const double lost = before + fall_energy() - kinetic_energy();
-    part_overlaps(kOverlapBudget * lost);
+    const double by_impacts = std::max(before - at_start, 0.0);
+    const double by_forces = at_start + fall_energy() - kinetic_energy();
     for (std::size_t k = 0; k < rows_.size(); ++k) {
         const PilePair& pair = pairs_.all()[active_[k]];
         if (pair.laws != nullptr && pair.laws->resists()) resist_rolling(pair, rows_[k]);
     }
     note_contacts();
+    part_overlaps(by_impacts, by_forces);
     return seconds_;
 }
 
@@ -102,6 +104,12 @@ double PileStep::kinetic_energy() const {
         sum += b.velocity.squaredNorm() / b.inverse_mass + b.rim.squaredNorm() / b.inverse_spin;
     }
     return 0.5 * sum;
+}
+
+double PileStep::kinetic_energy(int ball, const Velocities& v) const {
+    const ExactBall& b = world_.ball(ball);
+    return 0.5 * b.mass *
+           (v.linear.squaredNorm() + b.inertia_factor * b.radius * b.radius * v.spin.squaredNorm());
 }
 
 /// What gravity has given over the step: m g . h (v + v')/2 of all.
@@ -299,8 +307,10 @@ double PileStep::part_pair(const PilePair& pair) {
     return -kRelaxation * gap;
 }
 
-/// Moves overlapping balls apart, as far as the lost energy lifts them.
-void PileStep::part_overlaps(double budget) {
+/// Moves overlapping balls apart at the step's start, as far as the energy lifts them that impacts
+/// have taken there, and that forces are yet to take from speeds: these are lower at the start
+/// then, and as without it at the end.
+void PileStep::part_overlaps(double by_impacts, double by_forces) {
     bool any = false;
     for (int sweep = 0; sweep < kOverlapSweeps; ++sweep) {
         double moved = 0;
@@ -310,14 +320,23 @@ void PileStep::part_overlaps(double budget) {
     }
     if (!any) return;
     const auto shift = [&](int ball) -> Vec3& { return shift_[static_cast<std::size_t>(ball)]; };
-    double rise = 0;
-    for (const int ball : balls_.awake())
-        rise -= world_.ball(ball).mass * world_.pull(ball).dot(shift(ball));
-    const double most = std::max(budget, 0.0);
-    const double factor = rise > most ? most / rise : 1;
+    double rise = 0, moving = 0;
     for (const int ball : balls_.awake()) {
-        balls_.of(ball).at.position += factor * shift(ball);
+        const PileBall& b = balls_.of(ball);
+        rise -= world_.ball(ball).mass * world_.pull(ball).dot(shift(ball));
+        if (b.pushed) moving += kinetic_energy(ball, b.started);
+    }
+    const double most = kOverlapBudget * (by_impacts + std::clamp(by_forces, 0.0, moving));
+    const double factor = rise > most ? most / rise : 1;
+    const double unpaid = std::max(factor * rise - by_impacts, 0.0);
+    const double slower = unpaid > 0 ? std::sqrt(1 - unpaid / moving) : 1;
+    for (const int ball : balls_.awake()) {
+        PileBall& b = balls_.of(ball);
+        b.at.position += factor * shift(ball);
         shift(ball).setZero();
+        if (!b.pushed) continue;
+        b.started.linear *= slower;
+        b.started.spin *= slower;
     }
 }
 

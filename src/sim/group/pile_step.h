@@ -44,9 +44,10 @@ class PileStep {
     void resist_rolling(const PilePair& pair, const PileRow& row);
     void note_contacts();
     double kinetic_energy() const;
+    double kinetic_energy(int ball, const Velocities& velocities) const;
     double fall_energy() const;
     void slow_down(double too_much);
-    void part_overlaps(double budget);
+    void part_overlaps(double by_impacts, double by_forces);
     double part_pair(const PilePair& pair);
 
     const ExactWorld& world_;

@@ -16,7 +16,10 @@ struct IntegratedPhase {
     // How often something has ended at once at one instant [s].
     double last_begin = -std::numeric_limits<double>::infinity();
     int at_once = 0;
-    /// s: it was given up on (SingleEnd::kGivenUp), and is stepped until then, ...
+    double begun = -std::numeric_limits<double>::infinity();  ///< s, the last piece
+    int short_pieces = 0;                                     ///< of late (held_balls.cpp)
+    /// s: it was given up on (SingleEnd::kGivenUp, or pieces short for too long), and is stepped
+    /// until then, ...
     double stepped_until = -std::numeric_limits<double>::infinity();
     double stepped_seconds = 0;  ///< ... for so long; twice as long each time
 };

@@ -24,7 +24,8 @@ constexpr double kBalanced = 1e-12;
 constexpr double kRoundingSpeed = 1e-11;
 
 /// An island whose laws change all the time, as between balls that are being poured, is stepped for
-/// a while: so many pieces on end are shorter than a step.
+/// a while: so many pieces are shorter than a step, and none between them has lasted for one. What
+/// was to last longer, and was cut at once by an impact, tells nothing.
 constexpr int kMostShortPieces = 60;
 constexpr double kRestlessSeconds = 0.25;
 
@@ -99,12 +100,12 @@ bool CoupledIslands::coupled_system(const std::vector<int>& island, double now,
 }
 
 /// After steps of ODE gaps are shut that a step does not see; if that lifts balls, their speeds
-/// pay.
-void CoupledIslands::pay_for_places(const std::vector<int>& island, double now,
+/// pay. False where they cannot.
+bool CoupledIslands::pay_for_places(const std::vector<int>& island, double now,
                                     CoupledIsland& is) const {
     if (std::none_of(island.begin(), island.end(),
                      [this](int ball) { return world_.ball(ball).coarse; }))
-        return;
+        return true;
     EnergyAccount account;
     std::vector<Vec3> old_places, places;
     std::vector<Velocities> old_velocities, velocities;
@@ -119,11 +120,13 @@ void CoupledIslands::pay_for_places(const std::vector<int>& island, double now,
     }
     const double excess =
         account.total(places, velocities) - account.total(old_places, old_velocities);
-    if (!account.take_away(excess, velocities)) return;
+    if (!account.can_pay(excess, velocities)) return false;
+    if (!account.take_away(excess, velocities)) return true;
     for (std::size_t b = 0; b < island.size(); ++b) {
         is.state[b].v = velocities[b].linear;
         is.state[b].w = velocities[b].spin;
     }
+    return true;
 }
 
 /// Series that are over end now.
@@ -165,7 +168,7 @@ CoupledIslands::Outcome CoupledIslands::integrate(const std::vector<int>& island
     const double rounding_speed = kRoundingSpeed * speed_of(is.system, is.state);
     land_now(is, now);
     if (!choose_modes(is.system, is.state)) return Outcome::kImpossible;
-    pay_for_places(island, now, is);
+    if (!pay_for_places(island, now, is)) return Outcome::kImpossible;
     CoupledForces forces = coupled_forces(is.system, is.state);
     const Parted parted = part(is, before, forces, rounding_speed, now);
     if (parted == Parted::kStepInstead) return Outcome::kImpossible;
@@ -239,10 +242,14 @@ CoupledPiece CoupledIslands::piece_of(int first_ball, double now, CoupledIsland&
     }
     guess.seconds = piece.next_seconds;
     guess.modes = modes;
-    guess.short_pieces = piece.seconds < kIslandStep ? guess.short_pieces + 1 : 0;
+    if (std::min(now - guess.begun, guess.lasts) >= kIslandStep) guess.short_pieces = 0;
+    guess.begun = now;
+    guess.lasts = piece.seconds;
+    if (piece.seconds < kIslandStep) ++guess.short_pieces;
     if (guess.short_pieces > kMostShortPieces) {
         guess.short_pieces = 0;
         guess.stepped_until = now + kRestlessSeconds;
+        ++log_.report.given_up;
     }
     return piece;
 }

@@ -33,10 +33,11 @@ class CoupledIslands {
 
   private:
     struct PieceGuess {
-        double seconds = 0;         ///< a good length for the next piece ...
-        std::uint64_t modes = 0;    ///< ... while contacts and modes are these
-        int short_pieces = 0;       ///< on end, shorter than a step
-        double stepped_until = -1;  ///< s
+        double seconds = 0;            ///< a good length for the next piece ...
+        std::uint64_t modes = 0;       ///< ... while contacts and modes are these
+        double begun = -1, lasts = 0;  ///< s, the last piece
+        int short_pieces = 0;          ///< shorter than a step, without one between that lasted
+        double stepped_until = -1;     ///< s
     };
     struct CoupledIsland {
         CoupledContacts system;
@@ -49,7 +50,7 @@ class CoupledIslands {
     Parted part(CoupledIsland& is, const CoupledForces& before, const CoupledForces& forces,
                 double rounding_speed, double now);
     CoupledPiece piece_of(int first_ball, double now, CoupledIsland& is, CoupledForces& forces);
-    void pay_for_places(const std::vector<int>& island, double now, CoupledIsland& is) const;
+    bool pay_for_places(const std::vector<int>& island, double now, CoupledIsland& is) const;
     void begin_pieces(const std::vector<int>& island, double now, const CoupledIsland& is,
                       const CoupledPiece& piece, double rounding_speed);
     bool is_at_rest(const std::vector<int>& island, const CoupledIsland& is,

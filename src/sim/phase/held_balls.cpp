@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/group/island_step.h"
 #include "sim/world/seams.h"
 
 namespace carom {
@@ -28,6 +29,13 @@ constexpr int kMostInVain = 40;
 /// A contact that is given up on is stepped for so long at first [s]: far longer than a stiff end
 /// of a slip takes.
 constexpr double kFirstStepped = 1e-3;
+
+/// Nor does it get on where so many pieces are shorter than a step of ODE and none of the times
+/// between is longer than this [s]: a slip that friction ends takes some 30 of them, and where
+/// others start it again and again, as between balls that chatter under large friction, its
+/// directions mean nothing.
+constexpr int kMostShortPieces = 200;
+constexpr double kPause = 4 * kIslandStep;
 
 bool is_plane(const SingleContact& contact) { return contact.across.trace() < 1.5; }
 
@@ -268,6 +276,10 @@ HeldBalls::Handover HeldBalls::advance(int ball, double now) {
                                          phase.next_seconds, phase.at_once >= kMostAtOnce);
     phase.end = piece.end;
     phase.next_seconds = piece.next_seconds;
+    if (now - phase.begun >= kPause) phase.short_pieces = 0;
+    phase.begun = now;
+    if (piece.seconds > 0 && piece.seconds < kIslandStep && ++phase.short_pieces > kMostShortPieces)
+        return step_instead(ball, now);
     ExactBall& b = world_.ball(ball);
     if (!(piece.seconds > 0)) {
         phase.state = piece.end_state;
@@ -292,7 +304,7 @@ Velocities HeldBalls::step_instead(int ball, double now) {
     IntegratedPhase& phase = integrated_[ball];
     phase.stepped_seconds = std::max(2 * phase.stepped_seconds, kFirstStepped);
     phase.stepped_until = now + phase.stepped_seconds;
-    phase.at_once = 0;
+    phase.at_once = phase.short_pieces = 0;
     ++log_.report.given_up;
     put_at(ball, now, phase.state.x);
     return {phase.state.v, phase.state.w};

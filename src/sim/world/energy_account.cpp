@@ -48,6 +48,19 @@ double EnergyAccount::second_rate(std::span<const Vec3> accelerations,
     return sum;
 }
 
+double EnergyAccount::lift(std::span<const Vec3> from, std::span<const Vec3> to) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        sum -= bodies_[i].mass * bodies_[i].pull.dot(to[i] - from[i]);
+    return sum;
+}
+
+bool EnergyAccount::can_pay(double excess, std::span<const Velocities> velocities) const {
+    double fall = 0;
+    for (const Body& b : bodies_) fall += b.mass * b.pull.norm() * b.radius;
+    return excess <= kinetic(velocities) + kRounding * fall;
+}
+
 bool EnergyAccount::take_away(double excess, std::span<Velocities> velocities) const {
     Vec3 centre = Vec3::Zero();
     double total_mass = 0;

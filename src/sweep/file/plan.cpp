@@ -56,6 +56,13 @@ void check_mode(const Sweep& sweep, const Node& root, Report& report) {
         report.error_at_key(*count,
                             "'count' is for the modes lhs and random; in a grid or zip the "
                             "axes say how many runs there are");
+    // A Latin hypercube is shuffled before its first run: 2 s and 80 MB.
+    constexpr std::int64_t kMostShuffled = 20'000'000;
+    const auto axes = static_cast<std::int64_t>(sweep.axes.size());
+    if (sweep.mode == SweepMode::kLhs && axes > 0 && sweep.count > kMostShuffled / axes)
+        report.error(*mode, fmt::format("{} runs of {} axes are too many to be spread evenly: mode "
+                                        "lhs takes runs times axes up to {}; mode random any",
+                                        sweep.count, axes, kMostShuffled));
     if (counted) {
         for (const Axis& axis : sweep.axes)
             if (axis.draw.is_random() && axis.draw.levels() > 1)

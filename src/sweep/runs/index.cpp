@@ -138,8 +138,13 @@ IndexCounts write_index(const Sweep& sweep, const Plan& plan, const std::string&
         count(row.record, counts);
         if (row.record.status == RunStatus::kDone) sums.add(row.record);
     });
+    Json axes = Json::array(), results = Json::array();
+    for (const Axis& axis : sweep.axes) axes.push_back(axis.path);
+    for (const ResultSpec& result : sweep.results) results.push_back(result.name);
     Json dataset = {{"carom", 1},
                     {"seed", sweep.seed},
+                    {"axes", axes},
+                    {"results", results},
                     {"runs", plan.count()},
                     {"done", counts.done},
                     {"failed", counts.failed},
