@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/check.h"
+#include "crowd.h"
 #include "render/blend/srgb.h"
 #include "render/painter.h"
-#include "scene/reader.h"
 
 namespace carom {
 namespace {
@@ -21,45 +21,9 @@ constexpr int kWidth = 640, kHeight = 360;
 constexpr int kSamples = 8;  ///< along a pixel's edge
 constexpr double kFps = 60;
 
-/// A square of striped balls over a checkered floor, with room between them.
+/// Of the size that all are drawn at here.
 Scene crowd(int balls, bool moving_camera, double shutter_deg) {
-    const int side = std::max(1, static_cast<int>(std::ceil(std::sqrt(balls))));
-    const int rows = (balls + side - 1) / side;
-    const double pitch = 2.4 / side;
-    const std::string text = fmt::format(
-        "carom: 1\nsimulation: {{duration: 2}}\n"
-        "looks: {{floor: {{style: checker}}, ball: {{style: striped, color: \"#c8102e\"}}}}\n"
-        "surfaces: [{{name: floor, plane: {{}}, look: floor}}]\n"
-        "balls: [{{name: a, radius: {}, look: ball, position: [{}, {}, {}],\n"
-        "         repeat: {{count: [{}, {}, 1], spacing: {}}}}}]\n"
-        "camera: {{from: [0, -4, 1.7], to: [0, 0, 0.2], fov_deg: 36{}}}\n"
-        "film: {{size: [{}, {}], fps: {}, shutter_deg: {}}}\n",
-        0.3 * pitch, -1.2 + 0.5 * pitch, -0.5 * pitch * rows, 0.35 * pitch + 0.05, side, rows,
-        pitch, moving_camera ? ", orbit_deg_per_s: 20" : "", kWidth, kHeight, kFps, shutter_deg);
-    const SceneResult read = read_scene(text, "picture");
-    if (!read.scene) throw Bug("the scene is wrong");
-    Scene scene = *read.scene;
-    scene.balls.resize(static_cast<std::size_t>(balls));
-    return scene;
-}
-
-/// Each ball goes its own way at the same speed, and turns: no simulation, however many there are.
-Motion ways_of(const Scene& scene, double speed) {
-    Motion motion;
-    motion.duration = 2;
-    for (std::size_t i = 0; i < scene.balls.size(); ++i) {
-        const double turn = 2.399963 * static_cast<double>(i);
-        Piece piece;
-        piece.position = scene.balls[i].position;
-        piece.velocity = speed * Vec3(std::cos(turn), std::sin(turn), 0);
-        piece.spin = 6 * Vec3(std::sin(turn), std::cos(turn), 0);
-        Trajectory path;
-        path.append(piece);
-        motion.balls.push_back(path);
-        motion.ball_names.push_back(scene.balls[i].name);
-        motion.peaks.emplace_back();
-    }
-    return motion;
+    return crowd_scene({balls, kWidth, kHeight, kFps, moving_camera, shutter_deg});
 }
 
 /// Light of pictures of one size, added up.
@@ -146,7 +110,7 @@ double frame_ms(Painter& painter, int frames) {
 void sharp(int balls, bool moving_camera, int frames) {
     constexpr double kSpeed = 0.5, kAt = 0.5;
     const Scene scene = crowd(balls, moving_camera, 0);
-    const Motion motion = ways_of(scene, kSpeed);
+    const Motion motion = crowd_motion(scene, kSpeed);
     Painter painter(scene, motion, {.width_px = kWidth, .height_px = kHeight});
     const double ms = frame_ms(painter, frames);
     Image picture;
@@ -162,7 +126,7 @@ void blurred(int balls, int frames) {
     constexpr double kSpeed = 3, kAt = 0.5, kOpen_s = 0.5 / kFps;  // 180 degrees
     constexpr int kMany = 512;
     const Scene still = crowd(balls, false, 0);
-    const Motion motion = ways_of(still, kSpeed);
+    const Motion motion = crowd_motion(still, kSpeed);
     Painter painter(still, motion, {.width_px = kWidth, .height_px = kHeight});
     const auto mean_of = [&](int count) {
         Light light;

@@ -69,6 +69,9 @@ TEST(Exposure, TakesAsManyInstantsAsPixelsOfWay) {
     EXPECT_EQ(16, exposure_count(12));
     EXPECT_EQ(17, exposure_count(16.5));
     EXPECT_EQ(kMostInstants, exposure_count(1e6));
+    EXPECT_EQ(4, sweep_count(4));
+    EXPECT_EQ(12, sweep_count(17));
+    EXPECT_EQ(kMostInstants / 4, sweep_count(kMostInstants));
     const auto instants = exposure_instants(exposure, 8);
     ASSERT_EQ(8u, instants.size());
     EXPECT_NEAR(5 - 7.0 / 16 / 120, instants.front(), 1e-12);  // the middle of the first eighth
@@ -175,34 +178,46 @@ TEST(MotionBlur, EachBallHasTheInstantsThatItNeeds) {
     EXPECT_GT(moved, 1000);
 }
 
-TEST(MotionBlur, IsTheMeanOfItsInstantsInLinearLight) {
+/// The mean of so many sharp pictures while the shutter is open, in linear light.
+Image mean_of_instants(const HandMadeScene& sharp, const Exposure& exposure, int count) {
+    Painter painter(sharp.scene, sharp.motion, {kWidth, kHeight});
+    std::vector<double> sum(std::size_t{4} * kWidth * kHeight);
+    Image mean(kWidth, kHeight), one;
+    for (const double instant : exposure_instants(exposure, count)) {
+        painter.paint(instant, one);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += linear_of(one.bgra[i]);
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        mean.bgra[i] = i % 4 == 3 ? std::uint8_t{255} : encoded_of(sum[i] / count);
+    return mean;
+}
+
+int values_beyond(const Image& a, const Image& b, int off) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.bgra.size(); ++i)
+        count += std::abs(int{a.bgra[i]} - int{b.bgra[i]}) > off ? 1 : 0;
+    return count;
+}
+
+// It is nearer to the light of all the time than instants are that lie half a pixel apart.
+TEST(MotionBlur, IsTheMeanOverTimeInLinearLight) {
     const HandMadeScene blurred = flying_ball(180), sharp = flying_ball(0);
     const double t = 0.2;
     const Image picture = blurred.paint(kWidth, kHeight, t);
     const View view(*blurred.scene.camera, kWidth, kHeight);
     const Exposure exposure(blurred.scene.film, 10, t);
     const BallWay way = ball_ways_px(blurred.scene, blurred.motion, exposure, view).at(0);
-    const auto instants = exposure_instants(exposure, exposure_count(way.seen));
-    ASSERT_GT(instants.size(), 4u);
-
-    Painter painter(sharp.scene, sharp.motion, {kWidth, kHeight});
-    std::vector<double> sum(picture.bgra.size());
-    Image one;
-    for (const double instant : instants) {
-        painter.paint(instant, one);
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += linear_of(one.bgra[i]);
-    }
-    int largest = 0, blurry = 0;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        if (i % 4 == 3) continue;
-        const int mean = encoded_of(sum[i] / static_cast<double>(instants.size()));
-        largest = std::max(largest, std::abs(mean - int{picture.bgra[i]}));
-        blurry += std::abs(mean - int{one.bgra[i]}) > 20 ? 1 : 0;
-    }
-    fmt::print("{} instants; largest difference to their mean: {} of 255\n", instants.size(),
-               largest);
-    EXPECT_LE(largest, 1);
-    EXPECT_GT(blurry, 500) << "nothing was blurred";
+    const int count = exposure_count(way.seen);
+    ASSERT_GT(count, 4);
+    const Image truth = mean_of_instants(sharp, exposure, 512);
+    const int found = compare_images(truth, picture).largest;
+    const int instants = compare_images(truth, mean_of_instants(sharp, exposure, count)).largest;
+    fmt::print("largest difference to 512 instants: {} of 255; of {} instants {}\n", found, count,
+               instants);
+    EXPECT_LE(found, instants);
+    EXPECT_LE(found, 4);
+    EXPECT_GT(values_beyond(truth, sharp.paint(kWidth, kHeight, t), 20), 500)
+        << "nothing was blurred";
 }
 
 // The light along a fast ball's path is that of far more instants, so that no steps are left.
@@ -269,6 +284,53 @@ TEST(MotionBlur, FewInstantsLeaveLittleOfEach) {
                    exposure_count(way), largest);
         EXPECT_LE(largest, 8);
         EXPECT_GT(changed, 50) << "nothing was blurred";
+    }
+}
+
+// However few parts the time is divided into: balls of all styles that fly and turn fast, with
+// their shadows and images, and one that bounces meanwhile, are as in the mean of many instants.
+TEST(MotionBlur, IsNearTheMeanOfManyInstants) {
+    constexpr LookStyle kStyles[] = {
+        LookStyle::kPlain,    LookStyle::kStriped, LookStyle::kBasketball, LookStyle::kVolleyball,
+        LookStyle::kFootball, LookStyle::kTennis,  LookStyle::kTableTennis};
+    const double t = 0.5;
+    for (const LookStyle style : kStyles) {
+        for (const bool mirror : {false, true}) {
+            const auto made = [&](double shutter_deg) {
+                HandMadeScene scene;
+                scene.camera({0, -4, 0.6}, {0, 0, 0.4});
+                const int floor = scene.look(LookStyle::kPlain, {0.8, 0.8, 0.8});
+                if (mirror) scene.scene.looks[static_cast<std::size_t>(floor)].reflection = 0.5;
+                scene.surface(PlaneShape{}, floor);
+                const int look = scene.look(style, {0.8, 0.3, 0.1}, {0.9, 0.9, 0.85});
+                const Vec3 fast(9, 1, 1), slow(-1, 0, 2);
+                scene.ball(Vec3(-0.5, 0, 0.5) - t * fast, 0.3, look, {5, 20, 10}, fast);
+                scene.ball(Vec3(0.8, 0.2, 0.4) - t * slow, 0.25, look, {0, 3, 25}, slow);
+                // Down to the floor at t, and up again.
+                scene.ball({-1.1, 0.4, 0.2 + t * 5}, 0.2, look, Vec3::Zero(), {0, 0, -5});
+                Piece up;
+                up.start = t;
+                up.position = {-1.1, 0.4, 0.2};
+                up.velocity = {0, 0, 4};
+                scene.motion.balls.back().append(up);
+                scene.scene.film.fps = {24, 1};
+                scene.scene.film.shutter_deg = shutter_deg;
+                return scene;
+            };
+            const HandMadeScene open = made(180), sharp = made(0);
+            const Image picture = open.paint(kWidth, kHeight, t);
+            constexpr int kMany = 256;
+            const Image truth = mean_of_instants(sharp, Exposure(open.scene.film, 10, t), kMany);
+            const int largest = compare_images(truth, picture).largest;
+            const int beyond = values_beyond(truth, picture, 3);
+            fmt::print(
+                "style {}{}: largest difference to {} instants {} of 255, {} values off by "
+                "more than 3\n",
+                static_cast<int>(style), mirror ? ", mirrored" : "", kMany, largest, beyond);
+            EXPECT_LE(largest, 8);
+            EXPECT_GT(values_beyond(truth, sharp.paint(kWidth, kHeight, t), 20), 1000)
+                << "nothing was blurred";
+        }
     }
 }
 

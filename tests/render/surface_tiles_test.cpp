@@ -13,6 +13,8 @@
 #include "hand_made_scene.h"
 #include "render/background/background_drawing.h"
 #include "render/gl/offscreen.h"
+#include "render/tile/screen_tiles.h"
+#include "render/tile/tile_mask.h"
 
 namespace carom {
 namespace {
@@ -106,10 +108,11 @@ class Studio {
     SurfaceTiles sorted() const { return sort_into_tiles(table_, view_, lights_, scale_); }
     SurfaceTiles everywhere() const { return all_bodies_everywhere(table_, view_); }
 
-    Drawn draw(const SurfaceTiles& tiles, BackgroundPrograms programs = BackgroundPrograms::kOne) {
+    Drawn draw(const SurfaceTiles& tiles, BackgroundPrograms programs = BackgroundPrograms::kOne,
+               const TileMask* detailed = nullptr) {
         BackgroundDrawing drawing(contexts_.main.gl(), kind_, programs);
         drawing.aim(picture_);
-        drawing.draw(view_, lights_, table_, scale_, tiles);
+        drawing.draw(view_, lights_, table_, scale_, tiles, detailed);
         return read();
     }
     Drawn draw_in_a_thread() {
@@ -255,6 +258,52 @@ TEST(SurfaceTiles, GiveThePictureThatAllBodiesEverywhereGive) {
         for (std::size_t list : {4, 8}) std::fill_n(none.rectangles.begin() + list, 4, 0.0F);
         EXPECT_NE(studio.draw(none).color.bgra, all.color.bgra) << made.name;
     }
+}
+
+// Programs for the plane and the sky alone, with the G-buffer in every other tile: the pixels are
+// those of one program for everything, whatever is painted on the plane.
+TEST(BackgroundDrawing, PartsOfOnePlaneAreThoseOfTheWholePicture) {
+    const auto check = [](const HandMadeScene& scene, bool transparent, const std::string& name) {
+        SCOPED_TRACE(name);
+        Studio studio(scene, transparent);
+        const SurfaceTiles tiles = studio.sorted();
+        const Drawn whole = studio.draw(tiles);
+        const auto forget = [&] {
+            studio.draw(SurfaceTiles{studio.everywhere().rectangles, {0, 0, 0, 0}});
+        };
+        forget();
+        const Drawn parts = studio.draw(tiles, BackgroundPrograms::kEachSetOfBodies);
+        EXPECT_EQ(whole.color.bgra, parts.color.bgra);
+        EXPECT_EQ(whole.g_buffer, parts.g_buffer);
+        forget();
+        TileMask detailed(kWidth, kHeight, ScreenTiles::kTilePx);
+        for (int y = 0; y < kHeight; y += ScreenTiles::kTilePx)
+            for (int x = y % 32; x < kWidth; x += 32)
+                detailed.add_tile(x / ScreenTiles::kTilePx, y / ScreenTiles::kTilePx);
+        const Drawn some = studio.draw(tiles, BackgroundPrograms::kEachSetOfBodies, &detailed);
+        EXPECT_EQ(whole.color.bgra, some.color.bgra);
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                if (!detailed.has_tile(x / ScreenTiles::kTilePx, y / ScreenTiles::kTilePx))
+                    continue;
+                const std::size_t at =
+                    4 * (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x));
+                ASSERT_TRUE(
+                    std::equal(&whole.g_buffer[at], &whole.g_buffer[at] + 4, &some.g_buffer[at]))
+                    << x << ", " << y;
+            }
+    };
+    for (const LookStyle style : {LookStyle::kPlain, LookStyle::kChecker, LookStyle::kGrid,
+                                  LookStyle::kWood, LookStyle::kCourt}) {
+        HandMadeScene scene;
+        scene.camera({0.3, -5, 1.2}, {0, 0, 0.9}, 40);  // with the horizon in it
+        scene.surface(PlaneShape{}, scene.look(style, {0.8, 0.7, 0.6}, {0.3, 0.4, 0.5}));
+        check(scene, false, std::to_string(static_cast<int>(style)));
+        check(scene, true, std::to_string(static_cast<int>(style)) + ", transparent");
+    }
+    HandMadeScene empty;
+    empty.camera({0, -5, 1.2}, {0, 0, 0.9}, 40);
+    check(empty, false, "sky");
 }
 
 TEST(BackgroundDrawing, AThreadOfItsOwnGivesTheSamePicture) {

@@ -84,7 +84,7 @@ TEST(ScreenTiles, OfWhatLiesBesideThePictureThereAreNone) {
 
 TEST(ScreenTiles, AnOctagonHoldsItsEllipse) {
     const Vec3 center(1, 2, 3), a(0.5, 0, 0), b(0, 0.2, 0.3);
-    const std::vector<Vec3> corners = octagon_around(center, a, b);
+    const auto corners = octagon_around(center, a, b);
     ASSERT_EQ(8u, corners.size());
     const Vec3 normal = a.cross(b);
     double nearest = HUGE_VAL;

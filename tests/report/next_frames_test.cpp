@@ -186,6 +186,40 @@ balls:
 camera: {from: [0, -5, 1.5], to: [0.2, 0, 0.2], fov_deg: 30}
 )";
 
+// Its background is drawn part by part by short programs, and where nobody looks closely in colours
+// alone; that of a camera that stands there for one picture by one program.
+TEST(NextFrames, OfACameraThatMovesAreThoseOfOneThatStands) {
+    const std::vector<Override> turning = {{"camera.orbit_deg_per_s", "20"}};
+    const std::pair<const char*, std::vector<Override>> cases[] = {
+        {"gallery/follow", {}},
+        {"gallery/camera_path", {}},
+        {"figure9", turning},
+        {"figure8", turning},
+        {"gallery/reflection", turning},
+        {"gallery/transparent", turning},
+        {"gallery/wood_floor", turning},
+        {"gallery/court", turning},
+        {"gallery/marble_run", turning},
+    };
+    for (const auto& [name, overrides] : cases) {
+        SCOPED_TRACE(name);
+        const Scene scene =
+            read(fs::path(CAROM_SOURCE_DIR "/scenes") / (std::string(name) + ".yaml"), overrides);
+        const Motion motion = simulate(scene).motion;
+        Painter moving(scene, motion, {.width_px = kWidth, .height_px = kHeight});
+        ASSERT_TRUE(moving.draws_each_anew());
+        Image frame, still;
+        for (const double t : {0.3, 0.35, 1.1}) {
+            moving.paint_next(t, frame);
+            PainterOptions one{.width_px = kWidth, .height_px = kHeight};
+            one.few_pictures = true;
+            one.only_at = t;
+            Painter(scene, motion, one).paint(t, still);
+            EXPECT_EQ(still, frame) << t;
+        }
+    }
+}
+
 TEST(NextFrames, LeaveWhatLiesWhereNothingTouchesIt) {
     const SceneResult result = read_scene(kPassing, "passing");
     ASSERT_TRUE(result.scene);

@@ -14,25 +14,31 @@ namespace {
 
 constexpr const char* kManyPlanes = "MANY_PLANES";  // they are listed
 
-/// Kinds of bodies, as bits.
-constexpr unsigned kBoxes = 1, kSpheres = 2, kOthers = 4;
-
-unsigned bodies_in(const SurfaceTable& table) {
-    return (table.boxes > 0 ? kBoxes : 0U) | (table.spheres > 0 ? kSpheres : 0U) |
-           (table.others > 0 ? kOthers : 0U);
+/// Edges are where there is just anything.
+bool has_front(const BackgroundKind& kind, const PartKind& part) {
+    return kind.occludes && part.seen == PartView::kAny;
 }
 
-/// Of the lists of a rectangle (SurfaceTiles): each has its first entry and the ends of its kinds.
-unsigned bodies_in(const float* rectangle) {
-    unsigned bodies = 0;
-    for (const int list : {4, 8})
-        for (const int kind : {0, 1, 2})
-            if (rectangle[list + kind + 1] > rectangle[list + kind]) bodies |= 1U << kind;
-    return bodies;
+/// Patterns of all surfaces, or of the one plane.
+std::vector<std::string> pattern_defines(const SurfaceTable& table, const PartKind& part) {
+    std::vector<std::string> defines;
+    const bool one = part.seen != PartView::kAny;
+    if (one && table.planes == 0) return defines;
+    const double style = one ? table.at(0, 4).w() : 0;
+    const auto add = [&](bool has, double number, const char* name) {
+        if (has && (!one || style == number)) defines.emplace_back(name);
+    };
+    add(table.checker, 1, "CHECKER");
+    add(table.grid, 2, "GRID");
+    add(table.wood, 3, "WOOD");
+    add(table.court, 4, "COURT");
+    if (!defines.empty()) defines.emplace_back("PATTERNED");
+    return defines;
 }
 
 std::vector<std::string> defines_for(const View& view, const SurfaceTable& table,
-                                     const BackgroundKind& kind, unsigned bodies) {
+                                     const BackgroundKind& kind, const PartKind& part) {
+    const unsigned bodies = part.bodies;
     std::vector<std::string> defines = view_defines(view);
     if (table.planes > 0) defines.push_back("PLANES");
     if (table.planes > kFewPlanes) defines.push_back(kManyPlanes);
@@ -45,14 +51,17 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
         if (table.rings) defines.push_back("RINGS");
         if (table.shells) defines.push_back("SHELLS");
     }
-    if (table.checker) defines.push_back("CHECKER");
-    if (table.grid) defines.push_back("GRID");
-    if (table.checker || table.grid || table.wood || table.court) defines.push_back("PATTERNED");
-    if (table.wood) defines.push_back("WOOD");
-    if (table.court) defines.push_back("COURT");
-    if (kind.occludes) defines.push_back("FRONT");
+    for (std::string& define : pattern_defines(table, part)) defines.push_back(std::move(define));
+    if (has_front(kind, part)) defines.push_back("FRONT");
     if (kind.mirrors) defines.push_back("REFLECTION");
     if (kind.transparent) defines.push_back("TRANSPARENT");
+    if (!part.detailed) defines.push_back("COLOR_ALONE");
+    if (part.seen != PartView::kAny) {
+        defines.push_back("ONE_PLANE");
+        if (part.seen == PartView::kGround) defines.push_back("GROUND");
+        if (part.seen == PartView::kSky) defines.push_back("SKY");
+        return defines;
+    }
     // Parallel rays see where a plane ends that they meet edge-on.
     if (table.count() > 1 || table.can_occlude() || view.orthographic())
         defines.push_back("SEVERAL");
@@ -60,7 +69,7 @@ std::vector<std::string> defines_for(const View& view, const SurfaceTable& table
 }
 
 GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
-                       const BackgroundKind& kind) {
+                       const BackgroundKind& kind, const PartKind& part) {
     GlProgram::Sources sources;
     sources.name = "background";
     std::vector<std::string> vertex_defines;
@@ -71,8 +80,9 @@ GlProgram make_program(const Gl& gl, const std::vector<std::string>& defines,
         assemble_shader(defines, {"surfaces", "other_surfaces", "shells", "surface_light",
                                   "surface_patterns", "background_fragment"});
     sources.attributes = {"a_rectangle", "a_seen", "a_shading", "a_planes"};
-    sources.outputs = {"out_color", "out_g_buffer"};  // as BackgroundPicture::targets() has them
-    if (kind.occludes) sources.outputs.push_back("out_front");
+    sources.outputs = {"out_color"};  // as BackgroundPicture::targets() has them
+    if (part.detailed) sources.outputs.push_back("out_g_buffer");
+    if (has_front(kind, part)) sources.outputs.push_back("out_front");
     if (kind.mirrors) sources.outputs.push_back("out_mirror");
     return GlProgram(gl, sources);
 }
@@ -93,50 +103,53 @@ class Current {
 
 void BackgroundDrawing::aim(const BackgroundPicture& target) {
     framebuffer_ = make_framebuffer(*gl_, "the background", target.targets());
+    if (!each_set_) return;
+    plain_framebuffer_ = make_framebuffer(*gl_, "the background", target.targets_without_edges());
+    color_framebuffer_ = make_framebuffer(*gl_, "the background", {target.targets().front()});
 }
 
 GlProgram& BackgroundDrawing::program_for(const View& view, const SurfaceTable& table,
-                                          unsigned bodies) {
-    std::vector<std::string> defines = defines_for(view, table, kind_, bodies);
+                                          const PartKind& part) {
+    std::vector<std::string> defines = defines_for(view, table, kind_, part);
     const auto found = programs_.find(defines);
     if (found != programs_.end()) return found->second;
-    GlProgram program = make_program(*gl_, defines, kind_);
+    GlProgram program = make_program(*gl_, defines, kind_, part);
     return programs_.emplace(std::move(defines), std::move(program)).first->second;
 }
 
 void BackgroundDrawing::compile(const View& view, const SurfaceTable& table) {
-    program_for(view, table, bodies_in(table));
+    program_for(view, table, {.bodies = bodies_in(table)});
 }
 
 void BackgroundDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
                              const PictureScale& scale) {
-    draw(view, lights, table, scale, sort_into_tiles(table, view, lights, scale));
+    draw(view, lights, table, scale, sort_into_tiles(table, view, lights, scale), nullptr);
 }
 
 void BackgroundDrawing::draw(const View& view, const Lights& lights, const SurfaceTable& table,
-                             const PictureScale& scale, const SurfaceTiles& tiles) {
-    std::map<unsigned, std::vector<float>> by_bodies;
-    if (each_set_) {
-        for (std::size_t i = 0; i < tiles.rectangles.size(); i += SurfaceTiles::kRectangleFloats) {
-            const float* rectangle = &tiles.rectangles[i];
-            std::vector<float>& those = by_bodies[bodies_in(rectangle)];
-            those.insert(those.end(), rectangle, rectangle + SurfaceTiles::kRectangleFloats);
-        }
-    } else {
-        by_bodies[bodies_in(table)] = tiles.rectangles;
-    }
+                             const PictureScale& scale, const SurfaceTiles& tiles,
+                             const TileMask* detailed) {
+    BackgroundParts parts;
+    if (each_set_)
+        parts = divided(tiles, table, view, detailed);
+    else
+        parts[{.bodies = bodies_in(table)}] = tiles.rectangles;
     const Gl& gl = *gl_;
     GlVec4Array surfaces(gl), listed(gl);
     surfaces.upload(table.vec4s);
     surfaces.bind(0);
     listed.upload(tiles.entries);
     listed.bind(1);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    gl.Viewport(0, 0, view.width_px(), view.height_px());
     gl.Disable(GL_BLEND);
     gl.Disable(GL_FRAMEBUFFER_SRGB);  // the shader encodes
-    for (const auto& [bodies, rectangles] : by_bodies)
-        draw_rectangles(program_for(view, table, bodies), view, lights, table, scale, rectangles);
+    for (const auto& [part, rectangles] : parts) {
+        const GlFramebuffer& framebuffer = part.seen == PartView::kAny ? framebuffer_
+                                           : part.detailed             ? plain_framebuffer_
+                                                                       : color_framebuffer_;
+        gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+        gl.Viewport(0, 0, view.width_px(), view.height_px());
+        draw_rectangles(program_for(view, table, part), view, lights, table, scale, rectangles);
+    }
     gl.Enable(GL_FRAMEBUFFER_SRGB);
     gl.check("drawing the background");
 }
@@ -149,6 +162,9 @@ void BackgroundDrawing::draw_rectangles(GlProgram& program, const View& view, co
     program.set("u_size", Vec2(view.width_px(), view.height_px()));
     program.set("u_surfaces", 0);
     program.set("u_listed", 1);
+    if (table.planes == 1)
+        program.set("u_plane", std::vector<float>(table.vec4s.begin(),
+                                                  table.vec4s.begin() + 4 * kSurfaceVec4s));
     program.set("u_counts", std::array{table.planes, table.boxes, table.spheres, table.others});
     program.set("u_fade_m", scale.fade_m);
     program.set("u_ao_reach_m", scale.ao_reach_m);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/background/background_parts.h"
 #include "render/background/background_picture.h"
 #include "render/background/surface_table.h"
 #include "render/background/surface_tiles.h"
@@ -17,9 +18,9 @@
 
 namespace carom {
 
-/// One program for the whole picture; or one for each set of kinds of bodies that parts of it have
-/// to do with, for a camera that moves: most parts show but planes, and a program for those takes a
-/// third of the time. Same pixels.
+/// One program for the whole picture; or one for each kind of parts (background_parts.h), for a
+/// camera that moves: most parts show a plane or the sky alone, and programs for those take a
+/// fraction of the time. Same pixels.
 enum class BackgroundPrograms { kOne, kEachSetOfBodies };
 
 /// Draws into a BackgroundPicture, from the context that is current when it is made: the picture's
@@ -37,14 +38,16 @@ class BackgroundDrawing {
     void compile(const View& view, const SurfaceTable& table);
 
     /// Again for another view of the same size and kind, too. The other one has lists of bodies
-    /// that are known to hold.
+    /// that are known to hold. With kEachSetOfBodies, tiles that are not `detailed` may be left
+    /// without the G-buffer and what else goes with the colours; null: none.
     void draw(const View& view, const Lights& lights, const SurfaceTable& table,
               const PictureScale& scale);
     void draw(const View& view, const Lights& lights, const SurfaceTable& table,
-              const PictureScale& scale, const SurfaceTiles& tiles);
+              const PictureScale& scale, const SurfaceTiles& tiles,
+              const TileMask* detailed = nullptr);
 
   private:
-    GlProgram& program_for(const View& view, const SurfaceTable& table, unsigned bodies);
+    GlProgram& program_for(const View& view, const SurfaceTable& table, const PartKind& part);
     void draw_rectangles(GlProgram& program, const View& view, const Lights& lights,
                          const SurfaceTable& table, const PictureScale& scale,
                          const std::vector<float>& rectangles);
@@ -53,7 +56,7 @@ class BackgroundDrawing {
     BackgroundKind kind_;
     bool each_set_;
     std::map<std::vector<std::string>, GlProgram> programs_;  ///< by what they are made with
-    GlFramebuffer framebuffer_;
+    GlFramebuffer framebuffer_, plain_framebuffer_, color_framebuffer_;  ///< of parts
 };
 
 /// All that one drawing depends on.

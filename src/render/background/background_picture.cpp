@@ -18,29 +18,36 @@ constexpr float kSky = 1e29f;  ///< depths beyond belong to no surface (surfaces
 }  // namespace
 
 BackgroundPicture::BackgroundPicture(const Gl& gl, int width, int height,
-                                     const BackgroundKind& kind)
-    : gl_(&gl), kind_(kind) {
-    color_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
+                                     const BackgroundKind& kind, const GlTexture* given)
+    : gl_(&gl), kind_(kind), given_color_(given) {
+    if (given == nullptr)
+        own_color_ = make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE);
     g_buffer_ = make_texture(gl, GL_RGBA32UI, width, height, GL_RGBA_INTEGER, GL_UNSIGNED_INT);
     if (kind.occludes)
         front_.emplace(make_texture(gl, GL_SRGB8_ALPHA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE));
     if (kind.mirrors)
         mirror_.emplace(make_texture(gl, GL_RGBA32F, width, height, GL_RGBA, GL_FLOAT));
-    color_framebuffer_ = make_framebuffer(gl, "copies of the background", {&color_});
+    color_framebuffer_ = make_framebuffer(gl, "copies of the background", {&color()});
     g_buffer_framebuffer_ = make_framebuffer(gl, "the G-buffer", {&g_buffer_});
     if (mirror_)
         mirror_framebuffer_ = make_framebuffer(gl, "mirror of the background", {&*mirror_});
 }
 
 std::vector<const GlTexture*> BackgroundPicture::targets() const {
-    std::vector<const GlTexture*> targets = {&color_, &g_buffer_};
+    std::vector<const GlTexture*> targets = {&color(), &g_buffer_};
     if (front_) targets.push_back(&*front_);
     if (mirror_) targets.push_back(&*mirror_);
     return targets;
 }
 
+std::vector<const GlTexture*> BackgroundPicture::targets_without_edges() const {
+    std::vector<const GlTexture*> targets = {&color(), &g_buffer_};
+    if (mirror_) targets.push_back(&*mirror_);
+    return targets;
+}
+
 void BackgroundPicture::lay_over(const Image& layer) {
-    carom::lay_over(*gl_, layer, filled_part(layer), color_framebuffer_, color_);
+    carom::lay_over(*gl_, layer, filled_part(layer), color_framebuffer_, color());
 }
 
 std::vector<TileBound> BackgroundPicture::tile_bounds(const View& view, int tile_px) const {

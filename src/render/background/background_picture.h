@@ -27,13 +27,17 @@ struct BackgroundKind {
 /// The background and, per pixel, what the passes of a frame need to know about it.
 class BackgroundPicture {
   public:
-    /// `gl` must outlive it. Nothing is in it until a BackgroundDrawing has drawn it.
-    BackgroundPicture(const Gl& gl, int width_px, int height_px, const BackgroundKind& kind);
+    /// `gl` must outlive it. Nothing is in it until a BackgroundDrawing has drawn it. Its colours
+    /// are drawn into `color`, which must outlive it, or, without, into a texture of its own.
+    BackgroundPicture(const Gl& gl, int width_px, int height_px, const BackgroundKind& kind,
+                      const GlTexture* color = nullptr);
 
     const BackgroundKind& kind() const { return kind_; }
 
     /// What a drawing of it fills.
     std::vector<const GlTexture*> targets() const;
+    /// The same of a drawing where no edge is.
+    std::vector<const GlTexture*> targets_without_edges() const;
 
     /// Lays a picture of the same size over the colours, in linear light: layers that do not move.
     void lay_over(const Image& layer);
@@ -60,9 +64,12 @@ class BackgroundPicture {
     std::vector<TileBound> tile_bounds(const View& view, int tile_px) const;
 
   private:
+    const GlTexture& color() const { return given_color_ != nullptr ? *given_color_ : own_color_; }
+
     const Gl* gl_;
     BackgroundKind kind_;
-    GlTexture color_, g_buffer_;
+    GlTexture own_color_, g_buffer_;
+    const GlTexture* given_color_;
     std::optional<GlTexture> front_, mirror_;
     GlFramebuffer color_framebuffer_, g_buffer_framebuffer_, mirror_framebuffer_;
 };

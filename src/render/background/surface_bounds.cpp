@@ -1,5 +1,6 @@
 #include "render/background/surface_bounds.h"
 
+#include <array>
 #include <cmath>
 
 #include "render/tile/screen_tiles.h"
@@ -61,7 +62,8 @@ SurfaceBound cylinder_bound(const Vec3& from, const Vec3& along, double radius) 
 SurfaceBound ring_bound(const Vec3& center, const Vec3& axis, double radius, double tube) {
     SurfaceBound bound;
     const Vec3 u = axis.unitOrthogonal() * radius, v = axis.cross(u);
-    bound.cores = octagon_around(center, u, v);
+    const std::array<Vec3, 8> octagon = octagon_around(center, u, v);
+    bound.cores.assign(octagon.begin(), octagon.end());
     bound.axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
     bound.thick = tube;
     bound.center = center;

@@ -17,11 +17,13 @@ namespace carom {
 namespace {
 
 // One instance, in the order of the vertex shader's attributes (ball_vertex.glsl).
-constexpr std::array<const char*, 10> kAttributes = {"a_bound",  "a_axes",   "a_ray",   "a_offset",
-                                                     "a_row_x",  "a_row_y",  "a_row_z", "a_color",
-                                                     "a_second", "a_contact"};
+constexpr std::array<const char*, 12> kAttributes = {"a_bound",  "a_axes",    "a_ray",   "a_offset",
+                                                     "a_row_x",  "a_row_y",   "a_row_z", "a_color",
+                                                     "a_second", "a_contact", "a_sweep", "a_turn"};
 constexpr std::size_t kInstanceFloats = 4 * kAttributes.size();
-constexpr GLsizei kCorners = 8;  ///< of the octagon around a ball
+/// Of the quadrangle around a ball: more corners would leave out pixels beside the ball, but make
+/// more inner edges, at which drivers shade pixels twice.
+constexpr GLsizei kCorners = 4;
 constexpr int kMostCasters = 8;  ///< balls that shade one ball; more would hardly be seen
 
 /// The style that a look means on a ball: patterns of surfaces are none on a ball.
@@ -41,7 +43,7 @@ std::set<LookStyle> styles_in(const Scene& scene) {
 }
 
 struct ProgramKind {
-    bool occluded, ghost, mirrored, casters;
+    bool occluded, ghost, mirrored, casters, swept;
 };
 
 GlProgram link_program(const Gl& gl, const std::set<LookStyle>& styles, const View& view,
@@ -58,6 +60,7 @@ GlProgram link_program(const Gl& gl, const std::set<LookStyle>& styles, const Vi
     if (kind.ghost) defines.push_back("GHOST");
     if (kind.mirrored) defines.push_back("MIRRORED");
     if (!kind.casters) defines.push_back("NO_CASTERS");
+    if (kind.swept) defines.push_back("SWEPT");
     sources.vertex = assemble_shader(defines, {"ball_vertex"});
     sources.fragment = assemble_shader(defines, {"ball_markings", "ball_fragment"});
     sources.attributes.assign(kAttributes.begin(), kAttributes.end());
@@ -100,7 +103,7 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
     with_static_ = around.occluded && (both || !images_);
     with_mirrors_ = around.mirrored && (both || images_);
     // Those of balls that are shaded by others are made when there is one.
-    for (const LookStyle style : styles_in(scene)) program_of(style, false);
+    for (const LookStyle style : styles_in(scene)) program_of({style, false, false});
     gl.BindVertexArray(vertex_array_.name());
     for (GLuint i = 0; i < kAttributes.size(); ++i) {
         gl.EnableVertexAttribArray(i);
@@ -109,10 +112,10 @@ BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& vie
     gl.check("preparing the balls");
 }
 
-GlProgram& BallBillboards::make_program(LookStyle style, bool casters) {
+GlProgram& BallBillboards::make_program(const ProgramKey& key) {
     GlProgram program =
-        link_program(*gl_, for_all_ ? styles_in(*scene_) : std::set<LookStyle>{style}, view_,
-                     {with_static_, ghost_.has_value(), with_mirrors_, casters});
+        link_program(*gl_, for_all_ ? styles_in(*scene_) : std::set<LookStyle>{key.style}, view_,
+                     {with_static_, ghost_.has_value(), with_mirrors_, key.casters, key.swept});
     set_common_uniforms(program, view_, lights_);
     if (ghost_) {
         program.set("u_ghost", ghost_->color);
@@ -125,14 +128,15 @@ GlProgram& BallBillboards::make_program(LookStyle style, bool casters) {
     program.set("u_casters", 2);
     program.set("u_is_image", images_ ? 1 : 0);
     if (mirror_) set_mirror_uniforms(program);
-    return programs_.emplace(std::pair(style, casters), std::move(program)).first->second;
+    return programs_.emplace(key, std::move(program)).first->second;
 }
 
-GlProgram& BallBillboards::program_of(LookStyle style, bool casters) {
-    if (for_all_ && !programs_.empty()) return programs_.begin()->second;
-    if (for_all_ || ghost_) casters = true;  // which of ghosts are solid balls
-    const auto found = programs_.find({style, casters});
-    return found != programs_.end() ? found->second : make_program(style, casters);
+GlProgram& BallBillboards::program_of(ProgramKey key) {
+    // One program for all serves what is swept and what stands alike.
+    if (for_all_) key = {LookStyle::kPlain, true, scene_->film.shutter_deg > 0};
+    if (ghost_) key.casters = true;  // which of ghosts are solid balls
+    const auto found = programs_.find(key);
+    return found != programs_.end() ? found->second : make_program(key);
 }
 
 void BallBillboards::set_view(const View& view, const Lights& lights) {
@@ -225,26 +229,18 @@ BallBillboards::Casters BallBillboards::find_hiders(const std::vector<BallInView
 
 void BallBillboards::append_instance(const BallInView& ball, const BallShade& shade,
                                      int first_caster, int casters) {
-    const Outline outline = project_sphere(ball.center, ball.radius, view_);
-    const Vec2 size(view_.width_px(), view_.height_px());
-    Vec2 bound = 0.5 * size, major(size.x(), 0), minor(0, size.y());
-    if (outline.is_ellipse) {
-        // An octagon around the ellipse, and a pixel for the soft edge.
-        const double around = 1.0 / std::cos(M_PI / kCorners);
-        bound = outline.center;
-        major = outline.major * around + outline.major.normalized();
-        minor = outline.minor * around + outline.minor.normalized();
-    }
+    const Bound bound = bound_around(ball);
     // The centre as depth * (ray through a pixel) + rest, so that the shader works with the small
     // difference of two rays instead of with large coordinates.
-    const bool ahead = outline.is_ellipse;
+    const Vec2 size(view_.width_px(), view_.height_px());
+    const bool ahead = bound.around_ellipse;
     const double depth = ahead ? ball.center.z() : 0.0;
     const Vec2 reference = ahead ? view_pixel(view_, ball.center) : Vec2(0.5 * size);
     const Vec3 rest = ahead ? Vec3(Vec3::Zero()) : ball.center;
     const Look& look = scene_->looks[static_cast<std::size_t>(ball.look)];
 
-    put(instances_, bound, Vec2(first_caster, casters));
-    put(instances_, major, minor);
+    put(instances_, bound.middle, Vec2(first_caster, casters));
+    put(instances_, bound.major, bound.minor);
     put(instances_, reference, Vec2(depth / ball.radius, ball.radius));
     put(instances_, rest / ball.radius, 0);
     for (int row = 0; row < 3; ++row)
@@ -252,6 +248,32 @@ void BallBillboards::append_instance(const BallInView& ball, const BallShade& sh
     put(instances_, linear(look.color), static_cast<double>(ball_style(look.style)));
     put(instances_, linear(look.second_color), 0);
     put(instances_, shade.contact, shade.contact_strength);
+    put(instances_, ball.sweep / ball.radius, bound.half_way.x());
+    put(instances_, ball.turn, bound.half_way.y());
+}
+
+/// Around the ball's outline, and a pixel for the soft edge; of a ball that is swept drawn out
+/// along its way, so that it holds the outlines from where it begins to where it ends.
+BallBillboards::Bound BallBillboards::bound_around(const BallInView& ball) const {
+    const Vec2 size(view_.width_px(), view_.height_px());
+    const Bound whole{false, 0.5 * size, {size.x(), 0}, {0, size.y()}, Vec2::Zero()};
+    if (!ball.swept) {
+        const Outline outline = project_sphere(ball.center, ball.radius, view_);
+        if (!outline.is_ellipse) return whole;
+        return {true, outline.center, outline.major + outline.major.normalized(),
+                outline.minor + outline.minor.normalized(), Vec2::Zero()};
+    }
+    const Outline from = project_sphere(swept_from(ball), ball.radius, view_);
+    const Outline to = project_sphere(swept_to(ball), ball.radius, view_);
+    if (!from.is_ellipse || !to.is_ellipse) return whole;
+    const Vec2 half_way = 0.5 * (to.center - from.center);
+    double reach = 0;
+    for (const Outline* outline : {&from, &to})
+        reach = std::max({reach, outline->major.norm(), outline->minor.norm()});
+    reach += 1;
+    const Vec2 along = half_way.norm() > 1e-9 ? Vec2(half_way.normalized()) : Vec2(1, 0);
+    return {true, 0.5 * (from.center + to.center), reach * along,
+            reach * Vec2(-along.y(), along.x()), half_way};
 }
 
 void BallBillboards::draw(const std::vector<BallInView>& balls,
@@ -272,7 +294,7 @@ void BallBillboards::draw_instances(const std::vector<BallInView>& balls, const 
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (!may_be_seen(balls[i], view_)) continue;
         append_instance(balls[i], shade_on(balls[i]), casters.first[i], casters.count[i]);
-        programs.push_back(&program_of(style_of(balls[i]), casters.count[i] > 0));
+        programs.push_back(&program_of({style_of(balls[i]), casters.count[i] > 0, balls[i].swept}));
     }
     if (!programs.empty()) draw_runs(programs, casters.vec4s, background);
 }

@@ -3,7 +3,7 @@
 
 #include <map>
 #include <optional>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "render/background/background_picture.h"
@@ -66,16 +66,31 @@ class BallBillboards {
                         const std::vector<BallInView>& solid) const;
     void draw_instances(const std::vector<BallInView>& balls, const Casters& casters,
                         const BackgroundPicture& background);
-    GlProgram& make_program(LookStyle style, bool casters);
+    /// One for the balls of a style that other balls may take light from or not, swept or not.
+    struct ProgramKey {
+        LookStyle style;
+        bool casters, swept;
+        bool operator<(const ProgramKey& other) const {
+            return std::tie(style, casters, swept) <
+                   std::tie(other.style, other.casters, other.swept);
+        }
+    };
+    GlProgram& make_program(const ProgramKey& key);
     void set_mirror_uniforms(GlProgram& program) const;
     /// `programs`: of each instance, in the order in which they are drawn.
     void draw_runs(const std::vector<GlProgram*>& programs, const std::vector<float>& casters,
                    const BackgroundPicture& background);
+    struct Bound {
+        bool around_ellipse;        ///< otherwise the whole picture
+        Vec2 middle, major, minor;  ///< of the ellipse, with its soft edge
+        Vec2 half_way;              ///< of its two halves, away from the middle
+    };
+    Bound bound_around(const BallInView& ball) const;
     void append_instance(const BallInView& ball, const BallShade& shade, int first_caster,
                          int casters);
     BallShade shade_on(const BallInView& ball) const;
     LookStyle style_of(const BallInView& ball) const;
-    GlProgram& program_of(LookStyle style, bool casters);
+    GlProgram& program_of(ProgramKey key);
 
     const Gl* gl_;
     const Scene* scene_;
@@ -94,8 +109,7 @@ class BallBillboards {
     bool images_;
     std::optional<GhostLook> ghost_;
     bool for_all_;  ///< one program draws all
-    /// By style, and whether other balls may take light from the ball.
-    std::map<std::pair<LookStyle, bool>, GlProgram> programs_;
+    std::map<ProgramKey, GlProgram> programs_;
     GlVertexArray vertex_array_;
     GlBuffer instance_buffer_;
     GlVec4Array caster_array_;

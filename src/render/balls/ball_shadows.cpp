@@ -13,7 +13,8 @@ namespace carom {
 
 namespace {
 
-GlProgram make_program(const Gl& gl, const View& view, const Lights& lights, bool one_caster) {
+GlProgram make_program(const Gl& gl, const View& view, const Lights& lights, bool one_caster,
+                       bool swept) {
     GlProgram::Sources sources;
     sources.name = "ball shadows";
     std::vector<std::string> tile = {fmt::format("TILE_PX {}.0", ShadowTiles::kTilePx)};
@@ -23,6 +24,11 @@ GlProgram make_program(const Gl& gl, const View& view, const Lights& lights, boo
         tile.emplace_back("ONE_CASTER");
         pixel.emplace_back("ONE_CASTER");
         sources.attributes.emplace_back("a_caster");
+        sources.attributes.emplace_back("a_sweep");
+    }
+    if (swept) {
+        tile.emplace_back("SWEPT");
+        pixel.emplace_back("SWEPT");
     }
     sources.vertex = assemble_shader(tile, {"tile_vertex"});
     sources.fragment = assemble_shader(pixel, {"ball_shadow_fragment"});
@@ -38,7 +44,11 @@ GlProgram make_program(const Gl& gl, const View& view, const Lights& lights, boo
 /// Tiles that one ball alone casts a shadow into, as a rectangle: what is drawn at once costs less.
 struct LoneTiles {
     int column, row, columns, rows;
-    const float* caster;
+    const float* caster;  ///< as ShadowTiles has it
+    int floats;           ///< of it
+    bool same_caster(const float* other) const {
+        return std::equal(caster, caster + floats, other);
+    }
 };
 
 /// Joins runs of a row, in order, with equal ones of the rows above.
@@ -49,8 +59,7 @@ void join_rows(std::vector<LoneTiles>& runs) {
         const auto end = joined.rbegin() + std::min(kNear, std::ssize(joined));
         const auto above = std::find_if(joined.rbegin(), end, [&](const LoneTiles& other) {
             return other.row + other.rows == run.row && other.column == run.column &&
-                   other.columns == run.columns &&
-                   std::equal(run.caster, run.caster + 4, other.caster);
+                   other.columns == run.columns && run.same_caster(other.caster);
         });
         if (above != end)
             ++above->rows;
@@ -60,9 +69,12 @@ void join_rows(std::vector<LoneTiles>& runs) {
     runs = std::move(joined);
 }
 
-void append(const float* tile, const float* caster, std::vector<float>& list) {
+constexpr std::size_t kTileFloats = 12;  ///< a tile, and its first caster with its way
+
+void append(const float* tile, const float* caster, int floats, std::vector<float>& list) {
     list.insert(list.end(), tile, tile + 4);
-    list.insert(list.end(), caster, caster + 4);
+    list.insert(list.end(), caster, caster + floats);
+    list.resize((list.size() + kTileFloats - 1) / kTileFloats * kTileFloats);
 }
 
 }  // namespace
@@ -74,12 +86,12 @@ BallShadows::BallShadows(const Gl& gl, const Scene& scene, const View& view, con
       tiles_(scene, view, lights, std::move(seen)),
       view_(view),
       lights_(lights),
-      program_(make_program(gl, view, lights, false)),
       vertex_array_(gl),
       tile_buffer_(gl),
       caster_array_(gl) {
+    program_of(false, false);
     gl.BindVertexArray(vertex_array_.name());
-    for (const GLuint attribute : {0, 1}) {
+    for (const GLuint attribute : {0, 1, 2}) {
         gl.EnableVertexAttribArray(attribute);
         gl.VertexAttribDivisor(attribute, 1);
     }
@@ -91,8 +103,16 @@ void BallShadows::set_view(const Scene& scene, const View& view, const Lights& l
     tiles_ = ShadowTiles(scene, view, lights, std::move(seen));
     view_ = view;
     lights_ = lights;
-    set_common_uniforms(program_, view, lights);
-    if (one_caster_) set_common_uniforms(*one_caster_, view, lights);
+    for (auto& [kind, program] : programs_) set_common_uniforms(program, view, lights);
+}
+
+GlProgram& BallShadows::program_of(bool one_caster, bool swept) {
+    const auto found = programs_.find({one_caster, swept});
+    if (found != programs_.end()) return found->second;
+    return programs_
+        .emplace(std::pair(one_caster, swept),
+                 make_program(*gl_, view_, lights_, one_caster, swept))
+        .first->second;
 }
 
 void BallShadows::mark(const std::vector<BallInView>& balls, TileOwners& owners) {
@@ -125,40 +145,40 @@ void BallShadows::draw_sorted(const TileMask* mask, const BackgroundPicture& bac
     std::vector<LoneTiles> lone;
     const std::vector<float>& tiles = tiles_.tiles();
     const std::vector<float>& casters = tiles_.casters();
+    const bool swept = tiles_.swept();
+    const int floats = swept ? 8 : 4;
     for (std::size_t i = 0; i < tiles.size(); i += 4) {
         const float* tile = &tiles[i];
         if (mask != nullptr &&
             !mask->has_tile(static_cast<int>(tile[0]), static_cast<int>(tile[1])))
             continue;
-        const auto first = static_cast<std::size_t>(tile[2]);
+        const float* caster =
+            &casters[static_cast<std::size_t>(floats) * static_cast<std::size_t>(tile[2])];
         if (tile[3] != 1 || one_program_) {
-            append(tile, &casters[4 * first], several_);
+            append(tile, caster, floats, several_);
             continue;
         }
         const int column = static_cast<int>(tile[0]), row = static_cast<int>(tile[1]);
-        const float* caster = &casters[4 * first];
         if (!lone.empty() && lone.back().row == row &&
-            lone.back().column + lone.back().columns == column &&
-            std::equal(caster, caster + 4, lone.back().caster))
+            lone.back().column + lone.back().columns == column && lone.back().same_caster(caster))
             ++lone.back().columns;
         else
-            lone.push_back({column, row, 1, 1, caster});
+            lone.push_back({column, row, 1, 1, caster, floats});
     }
     join_rows(lone);
     lone_.clear();
     for (const LoneTiles& run : lone) {
         const float rectangle[] = {static_cast<float>(run.column), static_cast<float>(run.row),
                                    static_cast<float>(run.columns), static_cast<float>(run.rows)};
-        append(rectangle, run.caster, lone_);
+        append(rectangle, run.caster, floats, lone_);
     }
-    if (!several_.empty()) draw_tiles(program_, several_, casters, background);
-    if (lone_.empty()) return;
-    if (!one_caster_) one_caster_.emplace(make_program(*gl_, view_, lights_, true));
-    draw_tiles(*one_caster_, lone_, casters, background);
+    if (!several_.empty()) draw_tiles(program_of(false, swept), several_, casters, background);
+    if (!lone_.empty()) draw_tiles(program_of(true, swept), lone_, casters, background);
 }
 
 void BallShadows::compile(const BackgroundPicture& background) {
-    draw_tiles(program_, {0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0, 1}, background);
+    draw_tiles(program_of(false, false), {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0}, {0, 0, 0, 1},
+               background);
 }
 
 void BallShadows::draw_tiles(GlProgram& program, const std::vector<float>& tiles,
@@ -173,16 +193,16 @@ void BallShadows::draw_tiles(GlProgram& program, const std::vector<float>& tiles
     gl_->BindBuffer(GL_ARRAY_BUFFER, tile_buffer_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(float)),
                     tiles.data(), GL_STREAM_DRAW);
-    constexpr std::size_t kFloats = 8;  // a tile, and its first caster
-    for (const GLuint attribute : {0, 1})
+    for (const GLuint attribute : {0, 1, 2})
         gl_->VertexAttribPointer(
-            attribute, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kFloats * sizeof(float)),
+            attribute, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(kTileFloats * sizeof(float)),
             reinterpret_cast<const void*>(std::size_t{attribute} * 4 * sizeof(float)));
     // Linear colour times the factor f. What is left of the light that shines through, 1 - alpha,
     // is lessened by f as well: alpha becomes (1 - f) + f alpha.
     gl_->Enable(GL_BLEND);
     gl_->BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size() / kFloats));
+    gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4,
+                             static_cast<GLsizei>(tiles.size() / kTileFloats));
 }
 
 }  // namespace carom

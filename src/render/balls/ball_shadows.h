@@ -1,7 +1,8 @@
 // The balls' shadows on everything that stands still: key light and ambient light, once per pixel.
 #pragma once
 
-#include <optional>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "render/background/background_picture.h"
@@ -33,6 +34,9 @@ class BallShadows {
     /// Finds which shadow falls where.
     const ShadowTiles& cast(const std::vector<BallInView>& balls);
 
+    /// Of the last cast().
+    const ShadowTiles& tiles() const { return tiles_; }
+
     /// Uses the program, for drivers that compile at the first use; the viewport is without extent.
     void compile(const BackgroundPicture& background);
 
@@ -40,8 +44,10 @@ class BallShadows {
     void mark(const std::vector<BallInView>& balls, TileOwners& owners);
 
   private:
+    GlProgram& program_of(bool one_caster, bool swept);
     void draw_sorted(const TileMask* mask, const BackgroundPicture& background);
-    /// Of each tile eight numbers: those of ShadowTiles::tiles(), and its first caster.
+    /// Of each tile twelve numbers: those of ShadowTiles::tiles(), and its first caster with its
+    /// way.
     void draw_tiles(GlProgram& program, const std::vector<float>& tiles,
                     const std::vector<float>& casters, const BackgroundPicture& background);
 
@@ -50,8 +56,8 @@ class BallShadows {
     ShadowTiles tiles_;
     View view_;
     Lights lights_;
-    GlProgram program_;
-    std::optional<GlProgram> one_caster_;  ///< made when there is a tile with one
+    /// By whether one caster is all, and whether it is swept; made when there are such.
+    std::map<std::pair<bool, bool>, GlProgram> programs_;
     GlVertexArray vertex_array_;
     GlBuffer tile_buffer_;
     GlVec4Array caster_array_;

@@ -1,6 +1,7 @@
 // The balls of one instant as the passes of a frame need them: view space, farthest first.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/pixel_rect.h"
@@ -17,8 +18,12 @@ struct BallInView {
     Mat3 ball_from_view = Mat3::Identity();  ///< rotation into the ball's own axes
     int index = 0;                           ///< into Scene::balls
     int look = 0;                            ///< into Scene::looks
-    int instant = 0;    ///< balls of different instants cast no shadow on one another
-    bool drawn = true;  ///< false: it is there for the shadows that it casts on other balls
+    int instant = 0;  ///< balls of different instants cast no shadow on one another
+    /// While a part of an open shutter's time passes, of which all else is the middle: the way of
+    /// the centre, and the turn (axis times angle, of the ball in view space).
+    Vec3 sweep = Vec3::Zero(), turn = Vec3::Zero();
+    bool swept = false;  ///< false: both are 0
+    bool drawn = true;   ///< false: it is there for the shadows that it casts on other balls
 };
 
 /// A sphere's outline on the picture: an ellipse, pixels. There is none if the sphere reaches
@@ -42,8 +47,33 @@ std::vector<BallInView> balls_at(double t, const Scene& scene, const Motion& mot
 std::vector<BallInView> balls_at(const std::vector<double>& instants, const Scene& scene,
                                  const Motion& motion, const View& view);
 
+/// A part of the time in which a shutter is open, s of the motion.
+struct OpenTime {
+    double begin = 0, middle = 0, end = 0;
+};
+
+/// The balls of a part of an open shutter's time, each with its way and its turn: lines that follow
+/// the motion as long as bends_px() is small.
+std::vector<BallInView> balls_during(const OpenTime& open, const Scene& scene, const Motion& motion,
+                                     const View& view);
+
+/// How far the balls' ways are from straight lines at most, px; of those that `counts` has.
+double bends_px(const OpenTime& open, const Motion& motion, const View& view,
+                const std::vector<bool>& counts, std::size_t first);
+
+/// Where a ball begins and ends its way; both the same where it is not swept.
+Vec3 swept_from(const BallInView& ball);
+Vec3 swept_to(const BallInView& ball);
+
 /// Puts them in that order.
 void sort_for_drawing(std::vector<BallInView>& balls, const View& view);
+
+/// Around all that is seen of a ball, with its soft edge and all along its way, px; also beside the
+/// picture. None where there is no ellipse.
+struct PictureBound {
+    double left, top, right, bottom;
+};
+std::optional<PictureBound> bound_of(const BallInView& ball, const View& view);
 
 /// Around every pixel that shows something of it, with its soft edge, within the picture.
 PixelRect bounds_in_picture(const BallInView& ball, const View& view);

@@ -17,6 +17,15 @@ bool agree(const BallInView& ball, const BallInView& ghost, const Scene& first,
                second.balls[static_cast<std::size_t>(ghost.index)].name;
 }
 
+/// Where both runs agree, only the solid ball stays.
+void leave_out_equal_ghosts(DrawnBalls& bodies, const Scene& scene, const Scene& second) {
+    std::erase_if(bodies.ghosts, [&](const BallInView& ghost) {
+        return std::any_of(bodies.balls.begin(), bodies.balls.end(), [&](const BallInView& ball) {
+            return agree(ball, ghost, scene, second);
+        });
+    });
+}
+
 }  // namespace
 
 DrawnBalls drawn_balls_at(const std::vector<double>& instants, const Scene& scene,
@@ -24,27 +33,27 @@ DrawnBalls drawn_balls_at(const std::vector<double>& instants, const Scene& scen
     DrawnBalls bodies{balls_at(instants, scene, motion, view), {}};
     if (second == nullptr) return bodies;
     bodies.ghosts = balls_at(instants, second->scene, second->motion, view);
-    std::erase_if(bodies.ghosts, [&](const BallInView& ghost) {
-        return std::any_of(bodies.balls.begin(), bodies.balls.end(), [&](const BallInView& ball) {
-            return agree(ball, ghost, scene, second->scene);
-        });
-    });
+    leave_out_equal_ghosts(bodies, scene, second->scene);
+    return bodies;
+}
+
+DrawnBalls drawn_balls_during(const OpenTime& open, const Scene& scene, const Motion& motion,
+                              const SecondRun* second, const View& view) {
+    DrawnBalls bodies{balls_during(open, scene, motion, view), {}};
+    if (second == nullptr) return bodies;
+    bodies.ghosts = balls_during(open, second->scene, second->motion, view);
+    leave_out_equal_ghosts(bodies, scene, second->scene);
     return bodies;
 }
 
 void mark_balls(const std::vector<BallInView>& balls, std::size_t first, const View& view,
                 TileOwners& owners) {
     for (const BallInView& ball : balls) {
-        const Outline outline = project_sphere(ball.center, ball.radius, view);
         const std::size_t body = first + static_cast<std::size_t>(ball.index);
-        if (!outline.is_ellipse) {
+        if (const std::optional<PictureBound> bound = bound_of(ball, view))
+            owners.add(body, bound->left, bound->top, bound->right, bound->bottom);
+        else
             owners.add_all(body);
-            continue;
-        }
-        const double x = std::hypot(outline.major.x(), outline.minor.x()) + 1;
-        const double y = std::hypot(outline.major.y(), outline.minor.y()) + 1;
-        owners.add(body, outline.center.x() - x, outline.center.y() - y, outline.center.x() + x,
-                   outline.center.y() + y);
     }
 }
 

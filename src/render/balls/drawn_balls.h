@@ -18,6 +18,10 @@ struct DrawnBalls {
 DrawnBalls drawn_balls_at(const std::vector<double>& instants, const Scene& scene,
                           const Motion& motion, const SecondRun* second, const View& view);
 
+/// The same while a part of an open shutter's time passes.
+DrawnBalls drawn_balls_during(const OpenTime& open, const Scene& scene, const Motion& motion,
+                              const SecondRun* second, const View& view);
+
 /// Adds the tiles in which the balls are seen, with their soft edges. Ball i of a scene is the body
 /// first + i.
 void mark_balls(const std::vector<BallInView>& balls, std::size_t first, const View& view,

@@ -95,6 +95,8 @@ std::vector<BallInView> mirror_images(const std::vector<BallInView>& balls, cons
         BallInView& image = images.emplace_back(ball);
         image.center -= 2 * height * mirror.normal;
         image.ball_from_view = ball.ball_from_view * flip;
+        image.sweep = flip * ball.sweep;
+        image.turn = -(flip * ball.turn);  // what turns left turns right in a mirror
     }
     sort_for_drawing(images, view);
     return images;

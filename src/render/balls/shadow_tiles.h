@@ -1,6 +1,7 @@
 // Which shadow may fall where: the pictures of the balls' shadows, sorted into tiles of the screen.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "render/background/background_picture.h"
@@ -24,10 +25,12 @@ class ShadowTiles {
 
     /// Per non-empty tile: column, row, first caster, number of casters (whole numbers in floats).
     const std::vector<float>& tiles() const { return tiles_; }
-    /// Centre (view space) and radius of each caster, tile after tile.
+    /// Centre (view space) and radius of each caster, tile after tile; where any is swept, each is
+    /// followed by its way and a number that means nothing.
     const std::vector<float>& casters() const { return casters_; }
     /// The same casters as indices into Scene::balls.
     const std::vector<int>& caster_balls() const { return caster_balls_; }
+    bool swept() const { return swept_; }
 
     void update(const std::vector<BallInView>& balls);
 
@@ -45,6 +48,11 @@ class ShadowTiles {
     void add_plane(const PlaneShape& plane, const View& view);
     void add_body(const Vec3& center, double radius, const View& view);
     void cast_on_plane(const Plane& plane, const BallInView& ball);
+    void add_ambient(const Plane& plane, const Vec3& center, double height, const BallInView& ball);
+    void add_key(const Plane& plane, const Vec3& center, double height, const BallInView& ball);
+    void add_octagon(const std::array<Vec3, 8>& octagon, const BallInView& ball,
+                     std::vector<Vec3>& points);
+    void mark_span(const ScreenTiles::Span& span, const BallInView& ball);
     void cast_on_body(const Body& body, const BallInView& ball);
     /// Marks the tiles of `window` that the hull of the points covers for the current caster.
     void mark_hull(const std::vector<Vec3>& points, const ScreenTiles::Window& window,
@@ -58,10 +66,12 @@ class ShadowTiles {
     std::vector<TileBound> seen_;
     std::vector<Plane> planes_;
     std::vector<Body> bodies_;
+    std::vector<Vec3> ambient_, key_;       ///< around what is being marked
     int caster_ = -1;                       ///< being marked
     std::vector<std::vector<int>> marked_;  ///< per tile, casters in order
     std::vector<float> tiles_, casters_;
     std::vector<int> caster_balls_;
+    bool swept_ = false;
 };
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "render/blend/srgb.h"
 
@@ -11,8 +12,13 @@ namespace carom {
 
 PixelRect filled_part(const Image& layer) {
     PixelRect part{layer.width_px, layer.height_px, 0, 0};
+    const auto row_bytes = std::size_t{4} * static_cast<std::size_t>(layer.width_px);
     for (int y = 0; y < layer.height_px; ++y) {
         const std::uint8_t* pixels = layer.row(y);
+        // Most rows are empty: each byte is 0, and like the next.
+        if (row_bytes == 0 ||
+            (pixels[0] == 0 && std::memcmp(pixels, pixels + 1, row_bytes - 1) == 0))
+            continue;
         for (int x = 0; x < layer.width_px; ++x) {
             if (pixels[4 * x + 3] == 0) continue;
             part.left = std::min(part.left, x);

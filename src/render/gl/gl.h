@@ -52,7 +52,8 @@ inline constexpr int kGlMajor = 3, kGlMinor = 3;
     X(PFNGLTEXPARAMETERIPROC, TexParameteri) X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)             \
     X(PFNGLUNIFORM1FPROC, Uniform1f) X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
     X(PFNGLUNIFORM2FPROC, Uniform2f) X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
-    X(PFNGLUNIFORM4IPROC, Uniform4i) X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
+    X(PFNGLUNIFORM4FVPROC, Uniform4fv) X(PFNGLUNIFORM4IPROC, Uniform4i)                           \
+    X(PFNGLUSEPROGRAMPROC, UseProgram)                                                            \
     X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)                                          \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer) X(PFNGLVIEWPORTPROC, Viewport)
 // clang-format on

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/check.h"
 #include "core/failure.h"
 #include "render/gl/shader_sources.h"
 
@@ -104,6 +105,8 @@ void GlProgram::send(const Value& value) const {
     if (value.whole)
         value.count == 1 ? gl_->Uniform1i(value.location, i[0])
                          : gl_->Uniform4i(value.location, i[0], i[1], i[2], i[3]);
+    else if (value.count > 3)
+        gl_->Uniform4fv(value.location, value.count / 4, f.data());
     else if (value.count == 1)
         gl_->Uniform1f(value.location, f[0]);
     else if (value.count == 2)
@@ -140,6 +143,14 @@ void GlProgram::set(const char* name, const Vec2& value) {
 void GlProgram::set(const char* name, const Vec3& value) {
     const Eigen::Vector3f f = value.cast<float>();
     keep(name, {-1, 3, false, {f.x(), f.y(), f.z()}, {}});
+}
+
+void GlProgram::set(const char* name, const std::vector<float>& vec4s) {
+    Value value{-1, static_cast<int>(vec4s.size()), false, {}, {}};
+    CAROM_CHECK(vec4s.size() % 4, ==, std::size_t{0});
+    CAROM_CHECK(vec4s.size(), <=, value.floats.size());
+    std::copy(vec4s.begin(), vec4s.end(), value.floats.begin());
+    keep(name, value);
 }
 
 std::string assemble_shader(const std::vector<std::string>& defines,

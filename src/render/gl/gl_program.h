@@ -52,13 +52,15 @@ class GlProgram {
     void set(const char* name, double value);
     void set(const char* name, const Vec2& value);
     void set(const char* name, const Vec3& value);
+    /// An array of vec4 of the shader, 8 at most.
+    void set(const char* name, const std::vector<float>& vec4s);
 
   private:
     struct Value {
         GLint location = -1;
         int count = 0;  ///< of numbers
         bool whole = false;
-        std::array<float, 3> floats{};
+        std::array<float, 32> floats{};
         std::array<int, 4> ints{};
     };
     void keep(const char* name, Value value);

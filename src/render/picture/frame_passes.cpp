@@ -136,6 +136,21 @@ void FramePasses::draw_below_within(const TileMask& mask, const DrawnBalls& bodi
     if (reflections_) reflections_->draw(bodies.balls, background, frame_, color_);
 }
 
+TileMask FramePasses::looks_closely(const DrawnBalls& bodies, const View& view) const {
+    TileMask tiles(view.width_px(), view.height_px(), ShadowTiles::kTilePx);
+    if (setup_.kind.mirrors) tiles.add_all();
+    if (shadows_) {
+        const std::vector<float>& shaded = shadows_->tiles().tiles();
+        for (std::size_t i = 0; i < shaded.size(); i += 4)
+            tiles.add_tile(static_cast<int>(shaded[i]), static_cast<int>(shaded[i + 1]));
+    }
+    if (!setup_.kind.occludes) return tiles;
+    for (const std::vector<BallInView>* balls : {&bodies.balls, &bodies.ghosts})
+        for (const BallInView& ball : *balls)
+            if (may_be_seen(ball, view)) tiles.add(bounds_in_picture(ball, view));
+    return tiles;
+}
+
 void FramePasses::draw_balls(const DrawnBalls& bodies, const BackgroundPicture& background) {
     draw_in_its_context(balls_,
                         [&](BallBillboards& balls) { balls.draw(bodies.balls, background); });

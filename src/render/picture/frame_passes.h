@@ -56,6 +56,9 @@ class FramePasses {
     /// after cast().
     void draw_below_within(const TileMask& mask, const DrawnBalls& bodies,
                            const BackgroundPicture& background);
+    /// Tiles in which some pass looks at more of the background than its colours; after cast().
+    TileMask looks_closely(const DrawnBalls& bodies, const View& view) const;
+
     /// Finds the shadows of all balls; null where there are none.
     const ShadowTiles* cast(const DrawnBalls& bodies) {
         return shadows_ ? &shadows_->cast(bodies.balls) : nullptr;

@@ -10,6 +10,13 @@
 
 namespace carom {
 
+namespace {
+
+constexpr float kMark = 0.3F;  ///< what no picture is where it is drawn
+constexpr int kMarkByte = 77;
+
+}  // namespace
+
 PictureTarget::PictureTarget(OffscreenContext& context, int width_px, int height_px)
     : context_(context), gl_(context.gl()), width_px_(width_px), height_px_(height_px) {
     GLint largest = 0;
@@ -32,6 +39,10 @@ void PictureTarget::restore(const std::vector<PixelRect>& parts,
     for (const PixelRect& part : parts)
         gl_.BlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top,
                             part.right, part.bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    aim(frame);
+}
+
+void PictureTarget::aim(const GlFramebuffer& frame) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, frame.name());
     gl_.Viewport(0, 0, width_px_, height_px_);
 }
@@ -74,20 +85,26 @@ std::vector<PixelRect> PictureTarget::differing(const std::vector<PixelRect>& pa
     return found;
 }
 
-/// A picture is opaque, or, where it shows nothing, transparent; never in between where no edge is.
 void PictureTarget::check_not_blank(bool transparent, const BackgroundPicture& background,
                                     const GlFramebuffer& frame) {
-    checked_ = true;
-    constexpr float kMark = 0.3F;
-    constexpr int kMarkByte = 77;
+    expect_drawing(transparent, frame);
+    const int x = width_px_ / 2, y = height_px_ / 2;
+    restore({{x, y, x + 1, y + 1}}, background, frame);
+    check_drawn(transparent, frame);
+}
+
+/// A picture is opaque, or, where it shows nothing, transparent; never in between where no edge is.
+void PictureTarget::expect_drawing(bool transparent, const GlFramebuffer& frame) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, frame.name());
     gl_.ClearColor(kMark, kMark, kMark, transparent ? kMark : 0.0F);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
-    const int x = width_px_ / 2, y = height_px_ / 2;
-    restore({{x, y, x + 1, y + 1}}, background, frame);
+}
+
+void PictureTarget::check_drawn(bool transparent, const GlFramebuffer& frame) {
+    checked_ = true;
     std::uint8_t pixel[4] = {};
     gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame.name());
-    gl_.ReadPixels(x, y, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
+    gl_.ReadPixels(width_px_ / 2, height_px_ / 2, 1, 1, GL_BGRA, GL_UNSIGNED_BYTE, pixel);
     if (transparent ? pixel[3] == kMarkByte : pixel[3] != 255)
         throw Failure(FailureKind::kRun, "the driver draws blank pictures and reports no error (" +
                                              context_.renderer() + ")");

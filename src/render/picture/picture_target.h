@@ -27,6 +27,9 @@ class PictureTarget {
     void restore(const std::vector<PixelRect>& parts, const BackgroundPicture& background,
                  const GlFramebuffer& frame);
 
+    /// Makes `frame` the one that is drawn into.
+    void aim(const GlFramebuffer& frame);
+
     /// Reads parts into a picture of the same size.
     void read(const std::vector<PixelRect>& parts, const GlFramebuffer& frame, Image& picture);
 
@@ -38,6 +41,9 @@ class PictureTarget {
     /// Drivers are known that draw nothing and report no error: Failure(kRun).
     void check_not_blank(bool transparent, const BackgroundPicture& background,
                          const GlFramebuffer& frame);
+    /// The same in two halves, around the first drawing into `frame`.
+    void expect_drawing(bool transparent, const GlFramebuffer& frame);
+    void check_drawn(bool transparent, const GlFramebuffer& frame);
     bool checked() const { return checked_; }
 
   private:

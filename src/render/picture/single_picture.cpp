@@ -84,7 +84,9 @@ class SinglePicture : public Picture {
         gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
         gl_.Enable(GL_FRAMEBUFFER_SRGB);
         target_->make_color();
-        background_.emplace(gl_, width_px_, height_px_, setup_.kind);
+        // Under a camera that moves nothing of a background stays: the frame itself is its picture.
+        background_.emplace(gl_, width_px_, height_px_, setup_.kind,
+                            setup_.moving ? &target_->color() : nullptr);
         passes_.emplace(*contexts_,
                         FramePasses::Contents{scene, second_, transparent_, options.few_pictures},
                         setup_, target_->color());
@@ -130,12 +132,10 @@ class SinglePicture : public Picture {
         if (changes_) changes_->forget();
         if (!setup_.moving) layer_.update(t);
         const bool blurred = mean_ && instants.size() == 1 && sum_exposure(t);
-        if (setup_.moving) {
-            move_camera(t);
-            if (!target_->checked())
-                target_->check_not_blank(transparent_, *background_, passes_->frame());
-        }
-        draw_picture(drawn_balls_at(instants), t, {target_->whole()});
+        if (setup_.moving)
+            draw_moved(t, instants, t);
+        else
+            draw_picture(drawn_balls_at(instants), {target_->whole()});
         gl_.Finish();
         const double drawn = clock_.now_s();
         target_->read({target_->whole()}, passes_->frame(), out);
@@ -182,7 +182,9 @@ class SinglePicture : public Picture {
         setup_.overlay.find_changes_over(t, tiles);
         const std::vector<PixelRect> parts = tiles.rects();
         const double drawn = clock_.now_s();
-        if (kept) target_->keep(parts, picture);
+        // Where all of it is drawn anew it would take longer to find what has stayed by chance.
+        const bool finds_parts = kept && tiles.share() < 1;
+        if (finds_parts) target_->keep(parts, picture);
         target_->read(parts, passes_->frame(), picture);
         const double read = clock_.now_s();
         if (blurred) mean_->write(picture);
@@ -191,7 +193,8 @@ class SinglePicture : public Picture {
         setup_.overlay.redraw_over(t, picture);
         draw_cpu_s_ += drawn - begin + (clock_.now_s() - read);
         read_cpu_s_ += read - drawn;
-        return kept ? ChangedParts::only(target_->differing(parts, picture)) : ChangedParts{};
+        return finds_parts ? ChangedParts::only(target_->differing(parts, picture))
+                           : ChangedParts{};
     }
 
     bool draws_each_anew() const override { return !changes_; }
@@ -218,18 +221,30 @@ class SinglePicture : public Picture {
         return background_->tile_bounds(setup_.view, ShadowTiles::kTilePx);
     }
 
-    /// Everything that depends on the view, for the camera's place at t.
-    void move_camera(double t) {
+    /// Everything below the text, and the view, for the camera's place at t; the balls are those of
+    /// `instants`, what lies below them that of `layer_t`.
+    void draw_moved(double t, const std::vector<double>& instants, double layer_t) {
         const Camera camera = camera_at(setup_.camera, camera_motion(), t);
         const Lights& lights = setup_.lights;
         const View& view = setup_.view = View(camera, width_px_, height_px_);
         setup_.surfaces = make_surface_table(scene_, view);
         setup_.scale = scale_of(scene_, camera);
-        drawing_->draw(view, lights, setup_.surfaces, setup_.scale);
+        passes_->see_in_tiles(view, lights, {});
+        passes_->set_view(view, lights, setup_.scale);
+        const DrawnBalls bodies = drawn_balls_at(instants);
+        passes_->cast(bodies);
+        const TileMask close = passes_->looks_closely(bodies, view);
+        if (!target_->checked()) target_->expect_drawing(transparent_, passes_->frame());
+        drawing_->draw(view, lights, setup_.surfaces, setup_.scale,
+                       sort_into_tiles(setup_.surfaces, view, lights, setup_.scale), &close);
+        if (!target_->checked()) target_->check_drawn(transparent_, passes_->frame());
         setup_.overlay.set_view(view);
         lay_background_layer();
-        if (passes_->has_shadows()) passes_->see_in_tiles(view, lights, seen_in_tiles());
-        passes_->set_view(view, lights, setup_.scale);
+        target_->aim(passes_->frame());
+        passes_->draw_below_within(close, bodies, *background_);
+        layer_.update(layer_t);  // the view is another one
+        layer_.lay_over({target_->whole()}, passes_->frame(), target_->color());
+        passes_->draw_balls(bodies, *background_);
     }
 
     const Motion& camera_motion() const {
@@ -240,13 +255,35 @@ class SinglePicture : public Picture {
         return carom::drawn_balls_at(instants, scene_, motion_, second_, setup_.view);
     }
 
-    /// Everything below the text, at the view as it is; of the background, what `parts` cover.
-    void draw_picture(const DrawnBalls& bodies, double t, const std::vector<PixelRect>& parts) {
+    /// Everything below the text under a camera that stands; of the background, what `parts` cover.
+    void draw_picture(const DrawnBalls& bodies, const std::vector<PixelRect>& parts) {
         target_->restore(parts, *background_, passes_->frame());
         passes_->draw_below(bodies, *background_);
-        if (setup_.moving) layer_.update(t);  // the view is another one
         layer_.lay_over(parts, passes_->frame(), target_->color());
         passes_->draw_balls(bodies, *background_);
+    }
+
+    DrawnBalls balls_during(const OpenTime& open) const {
+        return carom::drawn_balls_during(open, scene_, motion_, second_, setup_.view);
+    }
+
+    static OpenTime open_part(const Exposure& exposure, int i, int count) {
+        return {exposure.at(static_cast<double>(i) / count), exposure.at((i + 0.5) / count),
+                exposure.at((i + 1.0) / count)};
+    }
+
+    /// In how many parts of the time a group is drawn: few, as long as ways are lines within them.
+    int sweeps_of(const ExposureGroup& group, const Exposure& exposure) const {
+        constexpr double kStraightPx = 0.35;
+        const int few = sweep_count(group.count);
+        for (int i = 0; i < few; ++i) {
+            const OpenTime open = open_part(exposure, i, few);
+            if (bends_px(open, motion_, setup_.view, group.bodies, 0) > kStraightPx ||
+                (second_ != nullptr && bends_px(open, second_->motion, setup_.view, group.bodies,
+                                                scene_.balls.size()) > kStraightPx))
+                return group.count;
+        }
+        return few;
     }
 
     /// What blurs in the picture at t, while the shutter is open.
@@ -289,25 +326,30 @@ class SinglePicture : public Picture {
             mask.add_all();
             mean_->begin(mask.parts(), blur.count);
             for (const double instant : exposure_instants(blur.exposure, blur.count)) {
-                move_camera(instant);
-                draw_picture(drawn_balls_at({instant}), t, {target_->whole()});
+                draw_moved(instant, {instant}, t);
                 mean_->add(gl_, passes_->frame());
             }
             return true;
         }
         TileOwners owners(width_px_, height_px_, ShadowTiles::kTilePx, blur.ways_px.size());
-        for (const double instant : exposure_instants(blur.exposure, blur.count))
-            passes_->mark(drawn_balls_at({instant}), setup_.view, owners);
+        // Lines that a way bends away from would not mark all that is drawn.
+        ExposureGroup all;
+        all.count = blur.count;
+        all.bodies.assign(blur.ways_px.size(), true);
+        const int marked = sweeps_of(all, blur.exposure);
+        for (int i = 0; i < marked; ++i)
+            passes_->mark(balls_during(open_part(blur.exposure, i, marked)), setup_.view, owners);
         for (const ExposureGroup& group : sort_exposure(owners, blur.ways_px, blur.count)) {
             std::vector<PixelRect> changing;
             for (const TileMask::Part& part : group.parts) changing.push_back(part.bounds);
             changing = apart(changing);
             blurred_.insert(blurred_.end(), changing.begin(), changing.end());
-            mean_->begin(group.parts, group.count);
-            for (const double instant : exposure_instants(blur.exposure, group.count)) {
-                DrawnBalls bodies = drawn_balls_at({instant});
+            const int count = sweeps_of(group, blur.exposure);
+            mean_->begin(group.parts, count);
+            for (int i = 0; i < count; ++i) {
+                DrawnBalls bodies = balls_during(open_part(blur.exposure, i, count));
                 draw_only(group, scene_.balls.size(), bodies);
-                draw_picture(bodies, t, changing);
+                draw_picture(bodies, changing);
                 mean_->add(gl_, passes_->frame());
             }
         }

@@ -8,7 +8,9 @@ out vec4 out_color;
 #ifdef FRONT
 out vec4 out_front;  // colour of the nearer of two layers alone, where an edge passes
 #endif
+#ifndef COLOR_ALONE
 out uvec4 out_g_buffer;  // depth of the nearer layer, of the farther one; fractions; normal
+#endif
 
 // Of the body, with its pattern. Reading a record takes longer than what is done with it, and is done
 // for all bodies alike.
@@ -296,8 +298,10 @@ void main() {
 #ifdef FRONT
     out_front = vec4(encoded(front / max(front_weight, 1.0)), 1.0);
 #endif
+#ifndef COLOR_ALONE
     out_g_buffer = uvec4(floatBitsToUint(t_near), floatBitsToUint(t_far),
                       packed_unit(direct / weight, 10) | (packed_unit(ambient / weight, 10) << 10) |
                           (packed_unit(front_part, 10) << 20),
                       packed_normal(front_part >= 0.5 ? n_near : n_far));
+#endif
 }

@@ -25,6 +25,11 @@ flat in vec3 v_row_z;
 flat in vec4 v_contact;  // towards the nearest surface, 1 where it touches
 flat in ivec2 v_casters; // first, count
 
+#ifdef SWEPT
+flat in vec3 v_sweep;    // way of the centre while the shutter is open, radii
+flat in vec3 v_turn;     // and turn of the ball, axis times angle
+#endif
+
 out vec4 out_color;
 
 // Area of the part of a unit square that lies on the positive side of a line; x is the signed
@@ -122,26 +127,68 @@ float pixel_in_radii(float t) {
 #endif
 }
 
+#ifdef SWEPT
+// While the shutter is open the centre goes along a line. At the moment x, -0.5 ... 0.5, u has changed
+// by -x times the part of the way across the ray. x: the part of the time and of the pixel that the
+// ball covers, from four parts of the time, in each of which the edge goes as far as it does at the
+// middle; y: the moment in the middle of that.
+// The outline lies `inset` pixels within the ball.
+vec2 swept_coverage(vec3 u, vec3 across, float scale, float inset) {
+    float covered = 0.0, moment = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        float x = 0.25 * float(i) - 0.375;
+        vec3 v = u - x * across;
+        float rho = max(length(v), 1e-6), rho_picture = max(length(v.xy), 1e-6);
+        float size = rho / (scale * rho_picture);
+        float edge_way = 0.25 * size * abs(dot(v, across)) / rho;
+        float part = coverage(((1.0 - rho) * size - inset) / (1.0 + edge_way), size,
+                              v.xy / rho_picture);
+        covered += part;
+        moment += part * x;
+    }
+    return vec2(0.25 * covered, moment / max(covered, 1e-6));
+}
+#endif
+
 void main() {
     vec2 pixel = gl_FragCoord.xy;
     vec3 d = ray_through(pixel);
     vec4 nearest = nearest_on_ray(pixel, d);
     if (nearest.w <= 0.0) discard;
     vec3 u = nearest.xyz;
+#ifdef SWEPT
+    float along = dot(v_sweep, d) / dot(d, d);
+    vec3 across = v_sweep - d * along;
+    vec3 u_middle = u;
+    vec2 swept = swept_coverage(u, across, pixel_in_radii(nearest.w), 0.0);
+    if (swept.x <= 0.0) discard;
+    // From here on the ball stands where it is at the moment in the middle.
+    nearest.w += swept.y * along;
+    u -= swept.y * across;
+#endif
     float rho = max(length(u), 1e-6), rho_picture = max(length(u.xy), 1e-6);
 
     // Distance from the outline in pixels: rho changes by 1 / size per pixel, along u.
     float scale = pixel_in_radii(nearest.w);
     float size = rho / (scale * rho_picture);
     float edge = (1.0 - rho) * size;
+#ifdef SWEPT
+    float alpha = swept.x;
+#else
     float alpha = coverage(edge, size, u.xy / rho_picture);
     if (alpha <= 0.0) discard;
+#endif
 
 #ifdef GHOST
     float seen = seen_part(u, normalize(d), scale);
     if (seen <= 0.0) discard;
     // The outline lies within the ball, and leaves most of a small one open.
-    float inner = coverage(edge - min(u_outline, 0.4 * size), size, u.xy / rho_picture);
+    float inset = min(u_outline, 0.4 * size);
+#ifdef SWEPT
+    float inner = swept_coverage(u_middle, across, scale, inset).x;
+#else
+    float inner = coverage(edge - inset, size, u.xy / rho_picture);
+#endif
 #endif
 
     // One point inside; at the outline four, since there colours change fast within a pixel.
@@ -157,6 +204,9 @@ void main() {
         at = points == 1 ? vec2(0.0) : 0.5 * vec2(at.x - 0.5 * at.y, at.y + 0.5 * at.x);
         vec3 d_unit = normalize(ray_through(pixel + at));
         u = nearest_on_ray(pixel + at, d_unit).xyz;
+#ifdef SWEPT
+        u -= swept.y * across;
+#endif
         float out_by = length(u);
         // A point beside the ball moves to its rim, and counts little.
         float inner = min(out_by, max(1.0 - 0.15 / size, 0.5));
@@ -170,6 +220,11 @@ void main() {
         float reach = part * pixel_in_radii(t);
         vec3 nx = reach * (vec3(1, 0, 0) + d_unit * (u.x / h - d_unit.x));
         vec3 ny = reach * (vec3(0, 1, 0) + d_unit * (u.y / h - d_unit.y));
+#ifdef SWEPT
+        // And how far it moves over the ball while the shutter is open, of which the turn is a part.
+        vec3 nt = -across - d_unit * (dot(u, across) / h) - cross(v_turn, n);
+        g_moved = swept.x * nt * view_from_ball;
+#endif
         vec2 gloss;
         vec3 body = marking(n * view_from_ball, nx * view_from_ball, ny * view_from_ball, gloss);
         float counts = out_by < 1.0 ? 1.0 : 1e-3;

@@ -10,9 +10,20 @@ flat in vec3 v_color;   // the look's main colour
 flat in vec3 v_second;  // its second one
 
 // How far a function with gradient g reaches across a pixel (the width of a box of equal variance).
+#ifdef SWEPT
+vec3 g_moved = vec3(0.0);  // how far p moves while the shutter is open: one more way to reach
+float extent(vec3 g, vec3 px, vec3 py) {
+    return length(vec3(dot(g, px), dot(g, py), dot(g, g_moved))) + 1e-6;
+}
+float extent_of_all(vec3 px, vec3 py) {
+    return length(vec3(length(px), length(py), length(g_moved)));
+}
+#else
 float extent(vec3 g, vec3 px, vec3 py) {
     return length(vec2(dot(g, px), dot(g, py))) + 1e-6;
 }
+float extent_of_all(vec3 px, vec3 py) { return length(vec2(length(px), length(py))); }
+#endif
 
 // Part of the pixel where f > 0; where |f| < half_width.
 float above(float f, float width) { return clamp(f / width + 0.5, 0.0, 1.0); }
@@ -57,7 +68,7 @@ vec3 basketball(vec3 p, vec3 px, vec3 py) {
 
     // Pebbles: a fine relief, gone before it would flicker.
     const float kPebbles = 95.0;
-    float fine = kPebbles * length(vec2(length(px), length(py)));
+    float fine = kPebbles * extent_of_all(px, py);
     float fade = clamp(1.6 - fine, 0.0, 1.0);
     float relief = sin(p.x * kPebbles) * sin(p.y * kPebbles) * sin(p.z * kPebbles);
     vec3 leather = v_color * (1.0 + 0.16 * fade * relief);
@@ -137,6 +148,10 @@ vec3 football(vec3 p, vec3 px, vec3 py) {
     p *= fold;
     px *= fold;
     py *= fold;
+#ifdef SWEPT
+    vec3 moved = g_moved;
+    g_moved *= fold;
+#endif
 
     vec3 first = vec3(s), second = vec3(0.0);
     float best = dot(first, p), next = -1.0;
@@ -157,6 +172,9 @@ vec3 football(vec3 p, vec3 px, vec3 py) {
     float black = above(dot(g_black, p), extent(g_black, px, py));
     float seam = band(dot(g_seam, p), 0.013, extent(g_seam, px, py)) * (1.0 - black);
     float rim = band(dot(g_black, p), 0.013, extent(g_black, px, py));
+#ifdef SWEPT
+    g_moved = moved;  // for other styles
+#endif
     vec3 grey = mix(v_color, v_second, 0.72);
     return mix(mix(v_color, grey, max(seam, rim * 0.8)), v_second, black);
 }
@@ -171,7 +189,7 @@ vec3 tennis(vec3 p, vec3 px, vec3 py) {
     float line = curve(f, gradient, 0.055, p, px, py);
 
     const float kFibres = 60.0;
-    float fine = kFibres * length(vec2(length(px), length(py)));
+    float fine = kFibres * extent_of_all(px, py);
     float fade = clamp(1.6 - fine, 0.0, 1.0);
     float felt = sin(p.x * kFibres + 4.0 * p.y) * sin(p.y * kFibres + 5.0 * p.z) *
                  sin(p.z * kFibres + 3.0 * p.x);
@@ -184,12 +202,19 @@ vec3 tennis(vec3 p, vec3 px, vec3 py) {
 vec3 table_tennis(vec3 p, vec3 px, vec3 py) {
     vec3 q = vec3(abs(p.x), p.y, p.z);
     vec3 qx = vec3(p.x < 0.0 ? -px.x : px.x, px.yz), qy = vec3(p.x < 0.0 ? -py.x : py.x, py.yz);
+#ifdef SWEPT
+    vec3 moved = g_moved;
+    g_moved.x = p.x < 0.0 ? -moved.x : moved.x;
+#endif
     float mark = spot(q, normalize(vec3(1.0, 0.0, 0.26)), 0.115, qx, qy);
     mark = max(mark, spot(q, normalize(vec3(1.0, 0.30, 0.26)), 0.115, qx, qy));
     mark = max(mark, spot(q, normalize(vec3(1.0, -0.30, 0.26)), 0.115, qx, qy));
     float bar = band(q.y, 0.42, extent(vec3(0, 1, 0), qx, qy)) *
                 band(q.z + 0.13, 0.085, extent(vec3(0, 0, 1), qx, qy)) *
                 above(q.x, extent(vec3(1, 0, 0), qx, qy));
+#ifdef SWEPT
+    g_moved = moved;
+#endif
     return mix(v_color, v_second, max(mark, bar));
 }
 #endif  // TABLE_TENNIS

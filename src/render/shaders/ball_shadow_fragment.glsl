@@ -8,6 +8,9 @@ uniform usampler2D u_g_buffer;  // background_picture.h
 flat in ivec2 v_list;  // first caster, number of casters
 #ifdef ONE_CASTER
 flat in vec4 v_caster;  // most tiles have no other, and need not look for it at each pixel
+#ifdef SWEPT
+flat in vec3 v_sweep;
+#endif
 #endif
 
 out vec4 out_factor;
@@ -46,6 +49,8 @@ void main() {
         do {  // every tile has a caster
 #ifdef ONE_CASTER
             vec4 caster = v_caster;
+#elif defined(SWEPT)
+            vec4 caster = texelFetch(u_casters, 2 * (v_list.x + i));
 #else
             vec4 caster = texelFetch(u_casters, v_list.x + i);
 #endif
@@ -53,7 +58,21 @@ void main() {
             float along = dot(rel, u_light);
             float away2 = dot(rel, rel);
             float across = sqrt(max(away2 - along * along, 0.0));
+#ifdef SWEPT
+            // While the shutter is open the edge goes as far as the way leads towards it or away:
+            // in the mean it is as much softer, by equal variances of a box and of hidden_by_ball()'s
+            // edge of a half-width w, which is w^2 / 5.
+#ifdef ONE_CASTER
+            vec3 sweep = v_sweep;
+#else
+            vec3 sweep = texelFetch(u_casters, 2 * (v_list.x + i) + 1).xyz;
+#endif
+            float edge_way = dot(rel - along * u_light, sweep) / max(across, 1e-6 * caster.w);
+            float hidden = hidden_by_ball(along, across, caster.w,
+                                          sqrt(blur * blur + 0.41667 * edge_way * edge_way));
+#else
             float hidden = hidden_by_ball(along, across, caster.w, blur);
+#endif
             key *= along > 0.0 ? 1.0 - hidden : 1.0;
             // The part of the sky, weighted by its cosine, behind a ball: n . d (r / distance)^2.
             float near2 = min(caster.w * caster.w / away2, 1.0);

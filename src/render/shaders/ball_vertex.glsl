@@ -1,4 +1,4 @@
-// The octagon around a ball, and what its pixels need to know.
+// The quadrangle around a ball, and what its pixels need to know.
 
 uniform vec2 u_size;  // pixels
 
@@ -12,6 +12,13 @@ in vec4 a_row_z;
 in vec4 a_color;    // w: number of the style
 in vec4 a_second;
 in vec4 a_contact;  // towards the nearest surface, and how close it is
+
+#ifdef SWEPT
+in vec4 a_sweep;    // way of the centre, radii; w: half of the way in the picture along x [px]
+in vec4 a_turn;     // axis times angle; w: along y
+flat out vec3 v_sweep;
+flat out vec3 v_turn;
+#endif
 
 flat out vec4 v_ray;
 flat out vec3 v_offset;
@@ -39,13 +46,14 @@ void main() {
 #ifdef SEVERAL_STYLES
     v_style = a_color.w;
 #endif
-    // Corners at odd multiples of 22.5 degrees; drivers would compile much for a sine.
-    const float kLong = 0.92387953, kShort = 0.38268343;
-    int corner = gl_VertexID & 7, of_four = corner & 3;
-    bool flat_one = of_four == 0 || of_four == 3;
-    float x = flat_one ? kLong : kShort, y = flat_one ? kShort : kLong;
-    if (corner >= 2 && corner < 6) x = -x;
-    if (corner >= 4) y = -y;
+    // Around the unit circle, one corner after another.
+    int corner = gl_VertexID & 3;
+    float x = corner == 1 || corner == 2 ? -1.0 : 1.0, y = corner >= 2 ? -1.0 : 1.0;
     vec2 pixel = a_bound.xy + a_axes.xy * x + a_axes.zw * y;
+#ifdef SWEPT
+    v_sweep = a_sweep.xyz;
+    v_turn = a_turn.xyz;
+    pixel += (x < 0.0 ? -1.0 : 1.0) * vec2(a_sweep.w, a_turn.w);
+#endif
     gl_Position = vec4(2.0 * pixel / u_size - 1.0, 0.0, 1.0);
 }

@@ -25,6 +25,17 @@ void meet_others(inout Hit hit, vec3 d) {
 }
 #endif
 
+#if defined(GROUND)  // all pixels meet the plane
+Hit nearest_surface(vec3 d) {
+    vec4 plane = surface(0, 0);
+    float under = plane.w - dot(plane.xyz, g_start);
+    return Hit(under / dot(plane.xyz, d), 0, plane.xyz, 0, false, vec2(0.0));
+}
+#elif defined(SKY)  // and here none does
+Hit nearest_surface(vec3 d) {
+    return Hit(kFar, -1, vec3(0.0, 0.0, -1.0), 0, false, vec2(0.0));
+}
+#else
 Hit nearest_surface(vec3 d) {
     Hit hit = Hit(kFar, -1, vec3(0.0, 0.0, -1.0), 0, false, vec2(0.0));
 #ifdef PLANES
@@ -41,6 +52,7 @@ Hit nearest_surface(vec3 d) {
 #endif
     return hit;
 }
+#endif
 
 vec2 turned(vec2 v, vec2 by) { return vec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x); }
 

@@ -41,7 +41,13 @@ const vec3 g_right = vec3(1, 0, 0), g_down = vec3(0, 1, 0);
 float pixel_on(float t) { return pixel_at(t); }  // width of a pixel at the depth t of the ray
 #endif
 
+#ifdef ONE_PLANE
+// There is nothing but a plane, the same for all pixels, and the sky.
+uniform vec4 u_plane[8];
+vec4 surface(int item, int slot) { return u_plane[slot]; }
+#else
 vec4 surface(int item, int slot) { return texelFetch(u_surfaces, item * 8 + slot); }
+#endif
 
 int listed(int entry) { return int(texelFetch(u_listed, entry).x); }
 
@@ -77,6 +83,9 @@ void take(inout Hit hit, float t, int item, vec3 n, int axis, vec3 d) {
 void meet_planes(inout Hit hit, vec3 d) {
 #ifdef MANY_PLANES
     int entry = v_planes.x, end = v_planes.y;
+#elif defined(ONE_PLANE)
+    int entry = 0;
+    const int end = 1;
 #else
     int entry = 0, end = u_counts.x;
 #endif

@@ -9,6 +9,10 @@ flat out ivec2 v_list;
 #ifdef ONE_CASTER
 in vec4 a_caster;  // centre, radius
 flat out vec4 v_caster;
+#ifdef SWEPT
+in vec4 a_sweep;
+flat out vec3 v_sweep;
+#endif
 #endif
 
 void main() {
@@ -16,6 +20,9 @@ void main() {
 #ifdef ONE_CASTER
     v_list = ivec2(0, 1);
     v_caster = a_caster;
+#ifdef SWEPT
+    v_sweep = a_sweep.xyz;
+#endif
     corner *= a_tile.zw;
 #else
     v_list = ivec2(a_tile.zw);

@@ -9,10 +9,6 @@ namespace carom {
 
 namespace {
 
-/// Points nearer to the eye's plane are cut off there, in units of 1 / (picture height in pixels):
-/// any small positive depth serves, since what lies nearer cannot be told from it.
-constexpr double kNear = 1e-6;
-
 double cross(const Vec2& o, const Vec2& a, const Vec2& b) {
     return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
 }
@@ -35,12 +31,6 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
         std::reverse(points.begin(), points.end());
     }
     return hull;
-}
-
-/// Tile index of a pixel coordinate, between -1 and `count`.
-int tile_of(double px, int count) {
-    return static_cast<int>(
-        std::clamp(std::floor(px / ScreenTiles::kTilePx), -1.0, static_cast<double>(count)));
 }
 
 }  // namespace
@@ -94,44 +84,17 @@ std::vector<ScreenTiles::Span> ScreenTiles::hull(const std::vector<Vec3>& points
     std::vector<Span> spans;
     const std::vector<Vec2> corners = convex_hull(project(points));
     if (corners.empty()) return spans;
-    double low = corners.front().y(), high = low;
-    for (const Vec2& p : corners) {
-        low = std::min(low, p.y());
-        high = std::max(high, p.y());
-    }
-    const int first = std::max(window.first_row, tile_of(low - around_px, rows_));
-    const int last = std::min(window.last_row, tile_of(high + around_px, rows_));
-    for (int row = first; row <= last; ++row) {
-        // Extent in x of the hull within this row of tiles, with some pixels around.
-        const double top = row * kTilePx - around_px, bottom = (row + 1) * kTilePx + around_px;
-        double left = HUGE_VAL, right = -HUGE_VAL;
-        const auto widen = [&](double x) {
-            left = std::min(left, x);
-            right = std::max(right, x);
-        };
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const Vec2& a = corners[i];
-            const Vec2& b = corners[(i + 1) % corners.size()];
-            if (a.y() >= top && a.y() <= bottom) widen(a.x());
-            for (const double y : {top, bottom})
-                if ((a.y() - y) * (b.y() - y) < 0)
-                    widen(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
-        }
-        const int begin = std::max(window.first_column, tile_of(left - around_px, columns_));
-        const int end = std::min(window.last_column, tile_of(right + around_px, columns_));
-        if (begin <= end) spans.push_back({row, begin, end});
-    }
+    visit_polygon(corners.data(), corners.size(), window, around_px,
+                  [&](const Span& span) { spans.push_back(span); });
     return spans;
 }
 
-std::vector<Vec3> octagon_around(const Vec3& center, const Vec3& a, const Vec3& b) {
-    const double around = 1.0 / std::cos(M_PI / 8);
-    std::vector<Vec3> corners;
-    for (int i = 0; i < 8; ++i) {
-        const double turn = (i + 0.5) * M_PI / 4;
-        corners.push_back(center + around * (std::cos(turn) * a + std::sin(turn) * b));
-    }
-    return corners;
+std::array<Vec3, 8> octagon_around(const Vec3& center, const Vec3& a, const Vec3& b) {
+    // Corners at odd multiples of 22.5 degrees, 1 / cos 22.5 degrees away.
+    const double kLong = 1, kShort = std::tan(M_PI / 8);
+    const Vec3 al = kLong * a, as = kShort * a, bl = kLong * b, bs = kShort * b;
+    return {center + al + bs, center + as + bl, center - as + bl, center - al + bs,
+            center - al - bs, center - as - bl, center + as - bl, center + al - bs};
 }
 
 }  // namespace carom

@@ -1,6 +1,9 @@
 // The picture in square tiles, and which of them a convex body may be seen in.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "render/view/camera.h"
@@ -41,7 +44,25 @@ class ScreenTiles {
     std::vector<Span> hull(const std::vector<Vec3>& points, const Window& window,
                            double around_px = 1.0) const;
 
+    /// The same of an octagon (octagon_around()), handed to `visit` span by span: many small ones.
+    template <class Visit>
+    void visit_octagon(const std::array<Vec3, 8>& points, const Window& window,
+                       const Visit& visit) const;
+
   private:
+    /// Points nearer to the eye's plane are cut off there, in units of 1 / (picture height in
+    /// pixels): any small positive depth serves, since what lies nearer cannot be told from it.
+    static constexpr double kNear = 1e-6;
+
+    /// Of a convex polygon of `count` corners in the picture, in either order.
+    template <class Visit>
+    void visit_polygon(const Vec2* corners, std::size_t count, const Window& window,
+                       double around_px, const Visit& visit) const;
+    /// Tile index of a pixel coordinate, between -1 and `count`.
+    static int tile_of(double px, int count) {
+        return static_cast<int>(
+            std::clamp(std::floor(px / kTilePx), -1.0, static_cast<double>(count)));
+    }
     std::vector<Vec2> project(const std::vector<Vec3>& points) const;
 
     double pixel_width_;
@@ -51,6 +72,56 @@ class ScreenTiles {
 };
 
 /// Corners of an octagon around the ellipse center + cos a + sin b.
-std::vector<Vec3> octagon_around(const Vec3& center, const Vec3& a, const Vec3& b);
+std::array<Vec3, 8> octagon_around(const Vec3& center, const Vec3& a, const Vec3& b);
+
+template <class Visit>
+void ScreenTiles::visit_polygon(const Vec2* corners, std::size_t count, const Window& window,
+                                double around_px, const Visit& visit) const {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (std::size_t i = 0; i < count; ++i) {
+        low = std::min(low, corners[i].y());
+        high = std::max(high, corners[i].y());
+    }
+    const int first = std::max(window.first_row, tile_of(low - around_px, rows_));
+    const int last = std::min(window.last_row, tile_of(high + around_px, rows_));
+    for (int row = first; row <= last; ++row) {
+        // Extent in x of the polygon within this row of tiles, with some pixels around.
+        const double top = row * kTilePx - around_px, bottom = (row + 1) * kTilePx + around_px;
+        double left = HUGE_VAL, right = -HUGE_VAL;
+        const auto widen = [&](double x) {
+            left = std::min(left, x);
+            right = std::max(right, x);
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec2& a = corners[i];
+            const Vec2& b = corners[i + 1 < count ? i + 1 : 0];
+            if (a.y() >= top && a.y() <= bottom) widen(a.x());
+            for (const double y : {top, bottom})
+                if ((a.y() - y) * (b.y() - y) < 0)
+                    widen(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
+        }
+        const int begin = std::max(window.first_column, tile_of(left - around_px, columns_));
+        const int end = std::min(window.last_column, tile_of(right + around_px, columns_));
+        if (begin <= end) visit(Span{row, begin, end});
+    }
+}
+
+template <class Visit>
+void ScreenTiles::visit_octagon(const std::array<Vec3, 8>& points, const Window& window,
+                                const Visit& visit) const {
+    constexpr double kAroundPx = 1.0;
+    std::array<Vec2, 8> corners;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3& p = points[i];
+        if (!orthographic_ && p.z() < kNear) {  // cut off by the eye's plane: no octagon any more
+            for (const Span& span : hull({points.begin(), points.end()}, window, kAroundPx))
+                visit(span);
+            return;
+        }
+        corners[i] =
+            middle_px_ + Vec2(p.x(), p.y()) / ((orthographic_ ? 1.0 : p.z()) * pixel_width_);
+    }
+    visit_polygon(corners.data(), corners.size(), window, kAroundPx, visit);
+}
 
 }  // namespace carom

@@ -40,6 +40,14 @@ int exposure_count(double way_px) {
     return static_cast<int>(std::clamp(wanted, kFewestInstants, double{kMostInstants}));
 }
 
+int sweep_count(int count) {
+    // What a part leaves of its error in the mean is a twelfth: codes of 255, as of instants.
+    constexpr int kFewest = 12;
+    return count <= kFewest ? count : std::max(kFewest, static_cast<int>(std::ceil(count * part)));
+}
+return count <= kFewest ? count : std::max(kFewest, (count + 3) / 4);
+}
+
 std::vector<double> exposure_instants(const Exposure& exposure, int count) {
     std::vector<double> instants;
     for (int i = 0; i < count; ++i) instants.push_back(exposure.at((i + 0.5) / count));

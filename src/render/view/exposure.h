@@ -36,6 +36,11 @@ class Exposure {
 /// How many instants to draw of what comes so far in the picture, px; 1 where no blur is needed.
 int exposure_count(double way_px);
 
+/// A moving ball is drawn with its way in each of so many parts of the time, edges and markings
+/// filtered along it, so that one stands for several instants; `count` of them would be drawn of
+/// what stands still before a camera that moves.
+int sweep_count(int count);
+
 /// `count` instants, each for an equal part of the film time and in its middle.
 std::vector<double> exposure_instants(const Exposure& exposure, int count);
 
