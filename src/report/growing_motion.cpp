@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "media/thread_clock.h"
+#include "render/marks/labels.h"
 #include "scene/film_clock.h"
 #include "sim/record/kept_limit.h"
 
@@ -46,9 +47,8 @@ std::string why_whole_motion(const Scene& scene, bool has_second) {
 }
 
 MotionSpan needed_for_picture(const Scene& scene, double t) {
-    constexpr double kLabels_s = 0.5;
     const Film& film = scene.film;
-    const double beside_s = kLabels_s + 1 / film.fps.per_second();
+    const double beside_s = (scene.overlay.labels ? kLabelReach_s : 0) + 1 / film.fps.per_second();
     const double film_s = film_time(film, t);
     const double smooth_s = scene.camera ? scene.camera->smooth_s : 0;
     const double from = film_s > beside_s ? motion_time(film, film_s - beside_s) - smooth_s : 0;

@@ -25,8 +25,9 @@ struct MotionSpan {
     double from = 0, to = 0;
 };
 
-/// What must be known of the motion for the picture of the instant t [s]: labels look half a second
-/// of film to either side, the shutter half a frame, a camera that follows smoothly half its time.
+/// What must be known of the motion for the picture of the instant t [s]: labels look
+/// kLabelReach_s of film to either side, the shutter half a frame, a camera that follows smoothly
+/// half its time.
 MotionSpan needed_for_picture(const Scene& scene, double t);
 
 /// Simulates on a thread of its own. All else is of one thread, the one that uses the motion; what

@@ -170,9 +170,8 @@ double nearness(double share) {
 }  // namespace
 
 Eigen::MatrixXd LabelsElement::closeness(double t) const {
-    constexpr int kSteps = 16;        // to either side
-    constexpr double kReach_s = 0.5;  // of film
-    constexpr double kStep_s = kReach_s / kSteps;
+    constexpr int kSteps = 16;  // to either side
+    constexpr double kStep_s = kLevelReach_s / kSteps;
     const auto count = static_cast<Eigen::Index>(widths_px_.size());
     Eigen::MatrixXd close = Eigen::MatrixXd::Zero(count, count);
     std::vector<LabelWish> before, after;

@@ -18,6 +18,12 @@
 
 namespace carom {
 
+/// How far to either side labels look for others that come level with them, s of film.
+inline constexpr double kLevelReach_s = 0.5;
+/// How far to either side of an instant what is drawn at it depends on where balls are, s of film:
+/// how labels rise, over what lasts, from places that level ones have left.
+inline constexpr double kLabelReach_s = LabelRises::kReach_s + LabelRises::kBrief_s + kLevelReach_s;
+
 /// Where a label would like to be: centred on `center_x`, its lower edge at `bottom_y`, px.
 struct LabelWish {
     bool in_picture = true;  ///< false where the ball is not seen
