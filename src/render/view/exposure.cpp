@@ -43,9 +43,7 @@ int exposure_count(double way_px) {
 int sweep_count(int count) {
     // What a part leaves of its error in the mean is a twelfth: codes of 255, as of instants.
     constexpr int kFewest = 12;
-    return count <= kFewest ? count : std::max(kFewest, static_cast<int>(std::ceil(count * part)));
-}
-return count <= kFewest ? count : std::max(kFewest, (count + 3) / 4);
+    return count <= kFewest ? count : std::max(kFewest, (count + 3) / 4);
 }
 
 std::vector<double> exposure_instants(const Exposure& exposure, int count) {
