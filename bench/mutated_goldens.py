@@ -52,7 +52,7 @@ def run(*words, allowed=(0,)):
 
 def check(scenes, folder, report, *more):
     """The outcomes of stills by name, of `carom golden check`, and who drew them."""
-    run("golden", "check", *scenes, "--dir", folder, *SIZE, "--json", report, "-y", "-q", *more, allowed=(0, 5))
+    run("golden", "check", *scenes, "--dir", folder, *SIZE, "--json", report, "-y", "-q", "--same-renderer", 1, *more, allowed=(0, 5))
     stills = json.loads(report.read_text())["stills"]
     return {s["name"]: s for s in stills}
 

@@ -168,8 +168,14 @@ int accept(const AcceptOptions& options) {
 void add_limits(CLI::App& action, GoldenOptions& options) {
     action
         .add_option("--tolerance", options.limits.any.channel,
-                    "Largest difference of any channel, of 255 (default: 2, of goldens by the same "
-                    "renderer 1)")
+                    "Largest difference of any channel, of 255")
+        ->check(CLI::Range(0, 255))
+        ->type_name("0-255")
+        ->capture_default_str();
+    action
+        .add_option("--same-renderer", options.limits.same_renderer,
+                    "The same for goldens that say that this renderer drew them (default: as "
+                    "--tolerance)")
         ->check(CLI::Range(0, 255))
         ->type_name("0-255");
     action
@@ -255,8 +261,7 @@ void add_golden_command(CLI::App& app, Run& run, const Interrupt& interrupt) {
         add_backend_option(*action);
         add_progress_options(*action, options->common);
         add_time_limit_option(*action, interrupt);
-        action->callback([options, action, function, &run, &interrupt] {
-            options->limits.closer_for_same_renderer = action->count("--tolerance") == 0;
+        action->callback([options, function, &run, &interrupt] {
             run = [options, function, &interrupt] { return function(*options, interrupt); };
         });
         return action;

@@ -71,12 +71,11 @@ PixelRect differing_rect(const Image& a, const Image& b) {
 /// Which limits are missed; empty where none is.
 std::string missed_limits(const GoldenLimits& limits, bool same_renderer, const ImageMeasures& m) {
     if (!within(limits.any, m)) return missed_text(limits.any, m);
-    constexpr int kMost = GoldenLimits::kSameRenderer;
-    if (!limits.closer_for_same_renderer || !same_renderer || m.largest <= kMost) return "";
+    if (!limits.same_renderer || !same_renderer || m.largest <= *limits.same_renderer) return "";
     return fmt::format(
         "off by {:.6g}, {:.6g} more than the {} of 255 allowed to the renderer that drew the "
         "golden",
-        m.largest, m.largest - kMost, kMost);
+        m.largest, m.largest - *limits.same_renderer, *limits.same_renderer);
 }
 
 void compare(const AnyImage& golden, const Image& drawn, const GoldenLimits& limits,

@@ -1,6 +1,7 @@
 // One still against its golden.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,10 @@ namespace carom {
 enum class Outcome { kSame, kDifferent, kMissing, kUnreadable };
 
 /// Limits of golden pictures. A golden that was drawn by the still's own renderer (it says by
-/// which) is held to more: only processors of other makers are left between the two, which round
-/// approximate roots differently, by 1 (tests/cli/test_golden.py).
+/// which) can be held to more: only processors of other makers are left between the two.
 struct GoldenLimits {
-    static constexpr int kSameRenderer = 1;
     ImageTolerance any;
-    bool closer_for_same_renderer = true;
+    std::optional<int> same_renderer{};  ///< largest difference of any channel, 0 ... 255
 };
 
 /// "same", "different", "missing", "unreadable".

@@ -176,7 +176,8 @@ TEST(Plan, AHypercubeThatTakesTooLongToShuffleIsRefused) {
         for (const char* path : {"balls.a.mass", "balls.a.radius", "film.fps"})
             if (axes-- > 0) text += std::string("  ") + path + ": {uniform: [0.05, 0.06]}\n";
         std::string all;
-        for (const Diagnostic& d : SweepFiles(text).read().diagnostics.items()) all += d.message;
+        const SweepResult read = SweepFiles(text).read();
+        for (const Diagnostic& d : read.diagnostics.items()) all += d.message;
         return all;
     };
     EXPECT_EQ(messages(2), "");
