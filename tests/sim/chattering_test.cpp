@@ -171,7 +171,7 @@ TEST(Chattering, EndsInSteps) {
         for (const Trajectory& ball : result.motion.balls) pieces += ball.pieces().size();
         std::printf("%zu pieces, given up %lld times\n", pieces,
                     static_cast<long long>(result.report.given_up));
-        EXPECT_LE(pieces, 20'000u);
+        EXPECT_LE(pieces, 25'000u);
         EXPECT_TRUE(result.report.effects.at("last_resort").on);
     }
 }

@@ -132,8 +132,7 @@ GlProgram& BallBillboards::make_program(const ProgramKey& key) {
 }
 
 GlProgram& BallBillboards::program_of(ProgramKey key) {
-    // One program for all serves what is swept and what stands alike.
-    if (for_all_) key = {LookStyle::kPlain, true, scene_->film.shutter_deg > 0};
+    if (for_all_) key = {LookStyle::kPlain, true, key.swept};
     if (ghost_) key.casters = true;  // which of ghosts are solid balls
     const auto found = programs_.find(key);
     return found != programs_.end() ? found->second : make_program(key);

@@ -31,10 +31,11 @@ constexpr int kMostInVain = 40;
 constexpr double kFirstStepped = 1e-3;
 
 /// Nor does it get on where so many pieces are shorter than a step of ODE and none of the times
-/// between is longer than this [s]: a slip that friction ends takes some 30 of them, and where
+/// between is longer than this [s]: a slip that friction ends takes some 30 of them, a
+/// ball that rattles to rest in a ring some 400, and where
 /// others start it again and again, as between balls that chatter under large friction, its
 /// directions mean nothing.
-constexpr int kMostShortPieces = 200;
+constexpr int kMostShortPieces = 800;
 constexpr double kPause = 4 * kIslandStep;
 
 bool is_plane(const SingleContact& contact) { return contact.across.trace() < 1.5; }
