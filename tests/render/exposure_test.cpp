@@ -209,10 +209,10 @@ TEST(MotionBlur, IsTheMeanOverTimeInLinearLight) {
     const BallWay way = ball_ways_px(blurred.scene, blurred.motion, exposure, view).at(0);
     const int count = exposure_count(way.seen);
     ASSERT_GT(count, 4);
-    const Image truth = mean_of_instants(sharp, exposure, 512);
+    const Image truth = mean_of_instants(sharp, exposure, 256);
     const int found = compare_images(truth, picture).largest;
     const int instants = compare_images(truth, mean_of_instants(sharp, exposure, count)).largest;
-    fmt::print("largest difference to 512 instants: {} of 255; of {} instants {}\n", found, count,
+    fmt::print("largest difference to 256 instants: {} of 255; of {} instants {}\n", found, count,
                instants);
     EXPECT_LE(found, instants);
     EXPECT_LE(found, 4);
@@ -296,6 +296,7 @@ TEST(MotionBlur, IsNearTheMeanOfManyInstants) {
     const double t = 0.5;
     for (const LookStyle style : kStyles) {
         for (const bool mirror : {false, true}) {
+            if (mirror && style != LookStyle::kStriped) continue;
             const auto made = [&](double shutter_deg) {
                 HandMadeScene scene;
                 scene.camera({0, -4, 0.6}, {0, 0, 0.4});
@@ -319,7 +320,7 @@ TEST(MotionBlur, IsNearTheMeanOfManyInstants) {
             };
             const HandMadeScene open = made(180), sharp = made(0);
             const Image picture = open.paint(kWidth, kHeight, t);
-            constexpr int kMany = 256;
+            constexpr int kMany = 128;
             const Image truth = mean_of_instants(sharp, Exposure(open.scene.film, 10, t), kMany);
             const int largest = compare_images(truth, picture).largest;
             const int beyond = values_beyond(truth, picture, 3);

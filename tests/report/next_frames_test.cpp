@@ -194,6 +194,7 @@ TEST(NextFrames, OfACameraThatMovesAreThoseOfOneThatStands) {
         {"gallery/follow", {}},
         {"gallery/camera_path", {}},
         {"figure9", turning},
+        {"gallery/incline", turning},
         {"gallery/reflection", turning},
         {"gallery/wood_floor", turning},
         {"gallery/court", turning},
