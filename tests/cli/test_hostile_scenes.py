@@ -40,7 +40,7 @@ SCENES = {
     "tables of restitution": lambda: "materials:\n" + rows(
         lambda k: f"  m{k}: {{restitution: {table(10_000, lambda i: f'{0.9 - i * 1e-7:.7f}')}}}", 10)
     + "balls:\n" + rows(lambda k: f"- {{name: b{k}, radius: 0.1, position: [{k}, 0, 1], material: m{k}}}", 10),
-    "mistakes in one line": lambda: "balls: " + listed(lambda i: "{nam: a, radios: x}", 200_000) + "\n",
+    "mistakes in one line": lambda: "balls: " + listed(lambda i: "{nam: a, radios: x}", 100_000) + "\n",
     "unknown keys": lambda: rows(lambda i: f"k{i}: 1", 300_000),
     "unknown materials": lambda: "materials:\n" + rows(lambda i: f"  m{i}: {{restitution: 0.5}}", 60_000)
     + "balls:\n" + rows(lambda i: f"- {{name: b{i}, radius: 0.1, position: [{i}, 0, 1], material: n{i}}}", 60_000),

@@ -108,7 +108,7 @@ class Interrupts(ProgramTest):
         subprocess.run(["ffmpeg", "-v", "error", "-stream_loop", "20000", "-i", self.folder / "short.mp4",
                         "-c", "copy", film], check=True)
         self.before = set(self.names())
-        self.assert_ends(LongWork("compare", large, large), [signal.SIGINT], "")
+        self.assert_ends(LongWork("compare", large, large, busy_s=0.05), [signal.SIGINT], "")
         self.assert_ends(LongWork("compare", self.folder / "a", self.folder / "b"), [signal.SIGINT],
                          r" after \d+ of 50 pictures")
         self.assert_ends(LongWork("compare", film, film), [signal.SIGTERM], r" after \d+ frames")
