@@ -38,12 +38,12 @@ film: {size: [160, 90], fps: 20}
 """
 
 
-def png(path, width, height):
+def png(path, width, height, grey=0x80):
     """A grey picture, large and quickly made."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     packer = zlib.compressobj(1)
-    row = b"\0" + b"\x80" * width
+    row = b"\0" + bytes([grey]) * width
     data = b"".join(packer.compress(row * 100) for _ in range(height // 100)) + packer.flush()
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
                      + chunk(b"IDAT", data) + chunk(b"IEND", b""))
