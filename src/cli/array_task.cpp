@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/failure.h"
+#include "cli/usage.h"
 
 namespace carom {
 
@@ -33,8 +33,6 @@ constexpr std::array kSystems = {
 /// PBS, LSF and Kubernetes number their tasks without saying how many there are.
 constexpr std::array kNumbersAlone = {"PBS_ARRAY_INDEX", "PBS_ARRAYID", "LSB_JOBINDEX",
                                       "JOB_COMPLETION_INDEX"};
-
-[[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
 
 /// "--chunk" of "--chunk auto".
 std::string name_of(const std::string& option) { return option.substr(0, option.find(' ')); }

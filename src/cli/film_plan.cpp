@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "cli/array_task.h"
-#include "core/failure.h"
+#include "cli/usage.h"
 
 namespace carom {
 
@@ -17,8 +17,6 @@ namespace {
 /// or is done in parts.
 constexpr std::int64_t kMostDrawn = 100'000'000;
 constexpr std::int64_t kMostChunks = 1'000'000'000;
-
-[[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
 
 std::int64_t whole_number(std::string_view text, const std::string& option) {
     std::int64_t value = 0;

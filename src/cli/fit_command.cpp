@@ -10,6 +10,7 @@
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/standard_output.h"
+#include "cli/usage.h"
 #include "core/failure.h"
 #include "core/readable.h"
 #include "media/output_file.h"
@@ -46,8 +47,6 @@ struct FitCommandOptions {
     bool json = false;
     bool over_speed = false, fit_drag = false;
 };
-
-[[noreturn]] void usage(const std::string& message) { throw Failure(FailureKind::kInput, message); }
 
 /// One rebound for each drop, or several from one height.
 std::vector<MeasuredDrop> paired_drops(const FitCommandOptions& options) {

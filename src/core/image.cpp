@@ -11,8 +11,6 @@ namespace carom {
 
 namespace {
 
-constexpr int kChannels = 4;
-
 double luma(const std::uint8_t* bgra) {
     return 0.0722 * bgra[0] + 0.7152 * bgra[1] + 0.2126 * bgra[2];
 }

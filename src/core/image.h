@@ -9,6 +9,8 @@
 
 namespace carom {
 
+inline constexpr std::size_t kChannels = 4;  ///< of a pixel
+
 /// 8-bit sRGB, four bytes a pixel in the order B, G, R, A, alpha premultiplied, rows from the top,
 /// no padding between rows.
 struct Image {

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <limits>
 
+#include "core/image.h"
+
 namespace carom {
 
 namespace {
-
-constexpr std::size_t kChannels = 4;
 
 /// What 255 is in the samples' own steps.
 template <class Sample>

@@ -23,18 +23,18 @@ struct Frame {
     Vec3 turned(double angle) const { return std::cos(angle) * first + std::sin(angle) * second; }
 };
 
-struct Corner {
+struct MeshCorner {
     Vec3 position, normal;
 };
 
 /// A sheet of rows and columns of quads; `corner` of the parts of both, 0 ... 1. Its outside is
 /// where columns x rows points.
 void add_sheet(Mesh& mesh, int rows, int columns,
-               const std::function<Corner(double row, double column)>& corner) {
+               const std::function<MeshCorner(double row, double column)>& corner) {
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     for (int i = 0; i <= rows; ++i)
         for (int k = 0; k <= columns; ++k) {
-            const Corner c =
+            const MeshCorner c =
                 corner(static_cast<double>(i) / rows, static_cast<double>(k) / columns);
             mesh.positions.push_back(c.position);
             mesh.normals.push_back(c.normal);
@@ -65,7 +65,7 @@ void add_cap(Mesh& mesh, const Vec3& center, double radius, const Frame& frame, 
         const double polar = to + row * (from - to);
         const Vec3 normal =
             std::cos(polar) * frame.axis + std::sin(polar) * frame.turned(2 * kPi * column);
-        return Corner{center + radius * normal, normal};
+        return MeshCorner{center + radius * normal, normal};
     });
 }
 
@@ -75,13 +75,13 @@ void add_wall(Mesh& mesh, const Vec3& from, const Vec3& to, double radius, const
     const int columns = std::max(2, static_cast<int>(std::ceil(turn / (2 * kPi) * kAround)));
     add_sheet(mesh, 1, columns, [&](double row, double column) {
         const Vec3 normal = frame.turned(begin + turn * column);
-        return Corner{from + row * (to - from) + radius * normal, normal};
+        return MeshCorner{from + row * (to - from) + radius * normal, normal};
     });
 }
 
 void add_disc(Mesh& mesh, const Vec3& center, double radius, const Frame& frame) {
     add_sheet(mesh, 1, kAround, [&](double row, double column) {
-        return Corner{center + (1 - row) * radius * frame.turned(2 * kPi * column), frame.axis};
+        return MeshCorner{center + (1 - row) * radius * frame.turned(2 * kPi * column), frame.axis};
     });
 }
 
@@ -94,8 +94,8 @@ Mesh box_mesh(const BoxShape& box) {
             const Vec3 half = 0.5 * box.size;
             add_sheet(mesh, 1, 1, [&](double row, double column) {
                 const Vec3 place = normal + (2 * column - 1) * across + (2 * row - 1) * up;
-                return Corner{box.center + box.orientation * place.cwiseProduct(half),
-                              box.orientation * normal};
+                return MeshCorner{box.center + box.orientation * place.cwiseProduct(half),
+                                  box.orientation * normal};
             });
         }
     return mesh;
@@ -106,7 +106,7 @@ Mesh plane_mesh(const PlaneShape& plane, const Vec3& middle, double reach) {
     const Frame frame(plane.normal);
     const Vec3 foot = middle - (plane.normal.dot(middle) - plane.offset_m) * plane.normal;
     add_sheet(mesh, 1, 1, [&](double row, double column) {
-        return Corner{
+        return MeshCorner{
             foot + reach * ((2 * column - 1) * frame.first + (2 * row - 1) * frame.second),
             plane.normal};
     });
@@ -140,7 +140,7 @@ Mesh ring_mesh(const RingShape& ring) {
     add_sheet(mesh, kTube, 2 * kAround, [&](double row, double column) {
         const Vec3 out = frame.turned(2 * kPi * column);
         const Vec3 normal = std::cos(2 * kPi * row) * out + std::sin(2 * kPi * row) * frame.axis;
-        return Corner{ring.center + ring.radius * out + ring.tube_radius * normal, normal};
+        return MeshCorner{ring.center + ring.radius * out + ring.tube_radius * normal, normal};
     });
     return mesh;
 }
@@ -175,7 +175,7 @@ Mesh unit_sphere() {
         mesh.places.emplace_back(column, 1 - row);
         const Vec3 p(std::cos(latitude) * std::cos(longitude),
                      std::cos(latitude) * std::sin(longitude), std::sin(latitude));
-        return Corner{p, p};
+        return MeshCorner{p, p};
     });
     return mesh;
 }

@@ -1,13 +1,12 @@
 #include "geometry/ray.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "core/infinity.h"
 
 namespace carom {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The part of a ray that is inside something convex; nothing where low >= high.
 struct Span {

@@ -14,10 +14,10 @@ namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json rects_json(const std::vector<PixelRect>& rects) {
-    Json list = Json::array();
+OrderedJson rects_json(const std::vector<PixelRect>& rects) {
+    OrderedJson list = OrderedJson::array();
     for (const PixelRect& r : rects)
         list.push_back({{"x", r.left}, {"y", r.top}, {"width", r.width()}, {"height", r.height()}});
     return list;
@@ -32,18 +32,18 @@ std::string seen_from(const std::string& path, const fs::path& folder) {
     return relative.empty() ? to.string() : relative.string();
 }
 
-Json still_json(const StillCheck& check, const fs::path& folder) {
-    Json json = {{"name", check.still.name},
-                 {"outcome", outcome_word(check.outcome)},
-                 {"scene", check.still.scene},
-                 {"time", check.still.time_s},
-                 {"golden", check.still.golden},
-                 {"golden_checksum", check.golden_checksum},
-                 {"renderer", check.still.renderer},
-                 {"why", check.why},
-                 {"missed", check.missed}};
+OrderedJson still_json(const StillCheck& check, const fs::path& folder) {
+    OrderedJson json = {{"name", check.still.name},
+                        {"outcome", outcome_word(check.outcome)},
+                        {"scene", check.still.scene},
+                        {"time", check.still.time_s},
+                        {"golden", check.still.golden},
+                        {"golden_checksum", check.golden_checksum},
+                        {"renderer", check.still.renderer},
+                        {"why", check.why},
+                        {"missed", check.missed}};
     if (check.golden_width_px > 0) {
-        Json measures = Json::object();
+        OrderedJson measures = OrderedJson::object();
         put_measures(measures, check.measures);
         json["measures"] = std::move(measures);
         json["golden_size"] = {check.golden_width_px, check.golden_height_px};
@@ -72,18 +72,18 @@ std::string GoldenReport::counts_text() const {
 }
 
 std::string report_json(const GoldenReport& report, const std::string& path) {
-    Json counts = Json::object();
+    OrderedJson counts = OrderedJson::object();
     for (const Outcome outcome :
          {Outcome::kSame, Outcome::kDifferent, Outcome::kMissing, Outcome::kUnreadable})
         counts[outcome_word(outcome)] = report.count(outcome);
-    Json json = {{"carom_golden_report", 1},    {"version", report.version},
-                 {"dir", report.folder},        {"limits", limits_json(report.limits)},
-                 {"counts", std::move(counts)}, {"invalid_scenes", report.invalid_scenes},
-                 {"orphans", report.orphans},   {"stills", Json::array()}};
+    OrderedJson json = {{"carom_golden_report", 1},    {"version", report.version},
+                        {"dir", report.folder},        {"limits", limits_json(report.limits)},
+                        {"counts", std::move(counts)}, {"invalid_scenes", report.invalid_scenes},
+                        {"orphans", report.orphans},   {"stills", OrderedJson::array()}};
     for (const StillCheck& check : report.stills)
         json["stills"].push_back(
             still_json(check, path.empty() ? fs::path() : fs::absolute(path).parent_path()));
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace carom

@@ -10,7 +10,7 @@ SharedLibrary open_library(const char* name, int major) {
     return SharedLibrary(fmt::format("lib{}.so.{}", name, major), "films need FFmpeg");
 }
 
-Libav load() {
+Libav load_libav() {
     Libav table;
     {
         const SharedLibrary library = open_library("avutil", LIBAVUTIL_VERSION_MAJOR);
@@ -34,7 +34,7 @@ Libav load() {
 }  // namespace
 
 const Libav& libav() {
-    static const Libav table = load();
+    static const Libav table = load_libav();
     return table;
 }
 

@@ -8,7 +8,7 @@ namespace carom {
 
 namespace {
 
-OpenExr load() {
+OpenExr load_openexr() {
     // "30.5.1": the first number is that of the interface.
     const std::string version = OPENEXR_LIB_VERSION_STRING;
     const SharedLibrary library(
@@ -24,7 +24,7 @@ OpenExr load() {
 }  // namespace
 
 const OpenExr& openexr() {
-    static const OpenExr table = load();
+    static const OpenExr table = load_openexr();
     return table;
 }
 

@@ -8,13 +8,13 @@
 #include <system_error>
 #include <vector>
 
+#include "core/image.h"
 #include "media/png_row_reader.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t kChannels = 4;
 /// Of a band's samples in memory: enough rows that a thread pays, few enough for the cache.
 constexpr std::size_t kBandBytes = 1 << 19;
 

@@ -12,6 +12,7 @@
 
 #include "core/check.h"
 #include "core/failure.h"
+#include "core/image.h"
 #include "media/png_writer.h"
 #include "media/straight_alpha.h"
 
@@ -20,7 +21,6 @@ namespace carom {
 namespace {
 
 constexpr std::int64_t kMostPixels = 100'000'000;
-constexpr std::size_t kChannels = 4;
 constexpr std::uint16_t kDeepStep = 257;  // 255 of 255 is 65535 of 65535
 
 /// A file that closes itself.

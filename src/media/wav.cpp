@@ -25,7 +25,7 @@ constexpr std::size_t kHeader = 44;
 constexpr std::uint16_t kWholeNumbers = 1, kFloats = 3, kExtensible = 0xFFFE;
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;  ///< that are read: three hours
 
-void put(std::string& text, std::uint32_t value, int bytes) {
+void append_bytes(std::string& text, std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
 }
 
@@ -114,21 +114,21 @@ void write_wav(const std::string& path, const SoundSamples& sound, Existing exis
                         static_cast<double>(sound.samples.size()) / sound.rate));
     const auto rate = static_cast<std::uint32_t>(std::lround(sound.rate));
     std::string text = "RIFF";
-    put(text, static_cast<std::uint32_t>(bytes + kHeader - 8), 4);
+    append_bytes(text, static_cast<std::uint32_t>(bytes + kHeader - 8), 4);
     text += "WAVEfmt ";
-    put(text, 16, 4);
-    put(text, kWholeNumbers, 2);
-    put(text, 1, 2);
-    put(text, rate, 4);
-    put(text, 2 * rate, 4);
-    put(text, 2, 2);
-    put(text, 16, 2);
+    append_bytes(text, 16, 4);
+    append_bytes(text, kWholeNumbers, 2);
+    append_bytes(text, 1, 2);
+    append_bytes(text, rate, 4);
+    append_bytes(text, 2 * rate, 4);
+    append_bytes(text, 2, 2);
+    append_bytes(text, 16, 2);
     text += "data";
-    put(text, static_cast<std::uint32_t>(bytes), 4);
+    append_bytes(text, static_cast<std::uint32_t>(bytes), 4);
     TextFile file(path, existing);
     for (const float sample : sound.samples) {
         const long level = std::clamp(std::lround(32768 * sample), -32768L, 32767L);
-        put(text, static_cast<std::uint16_t>(level), 2);
+        append_bytes(text, static_cast<std::uint16_t>(level), 2);
         if (text.size() < (std::size_t{1} << 16)) continue;
         file.write(text);
         text.clear();

@@ -25,14 +25,14 @@ struct Rectangle {
 };
 
 /// `count` bytes of a number, the lowest first.
-void put(std::string& bytes, std::uint64_t value, int count) {
+void put_little_endian(std::string& bytes, std::uint64_t value, int count) {
     for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 255);
 }
 
 /// A RIFF chunk: four letters, length, content, and a byte more where that is odd.
 std::string chunk(const char* name, const std::string& content) {
     std::string bytes = name;
-    put(bytes, content.size(), 4);
+    put_little_endian(bytes, content.size(), 4);
     bytes += content;
     if (content.size() % 2 != 0) bytes += '\0';
     return bytes;
@@ -150,12 +150,12 @@ class WebpFilm final : public FrameSink {
     void write_head() {
         constexpr int kAnimation = 2, kXmp = 4, kAlpha = 16;
         std::string canvas;
-        put(canvas, kAnimation | kXmp | (options_.transparent ? kAlpha : 0), 4);
-        put(canvas, static_cast<std::uint64_t>(options_.width_px - 1), 3);
-        put(canvas, static_cast<std::uint64_t>(options_.height_px - 1), 3);
+        put_little_endian(canvas, kAnimation | kXmp | (options_.transparent ? kAlpha : 0), 4);
+        put_little_endian(canvas, static_cast<std::uint64_t>(options_.width_px - 1), 3);
+        put_little_endian(canvas, static_cast<std::uint64_t>(options_.height_px - 1), 3);
         std::string loop;
-        put(loop, 0, 4);  // of what is not drawn: nothing
-        put(loop, 0, 2);  // for ever
+        put_little_endian(loop, 0, 4);  // of what is not drawn: nothing
+        put_little_endian(loop, 0, 2);  // for ever
         append(std::string("RIFF\0\0\0\0WEBP", 12) + chunk("VP8X", canvas) + chunk("ANIM", loop));
     }
 
@@ -205,12 +205,13 @@ class WebpFilm final : public FrameSink {
     void write_frame(const Rectangle& part, const std::string& pixels) {
         constexpr int kReplace = 2;  // do not blend
         std::string frame;
-        put(frame, static_cast<std::uint64_t>(part.x / 2), 3);
-        put(frame, static_cast<std::uint64_t>(part.y / 2), 3);
-        put(frame, static_cast<std::uint64_t>(part.width - 1), 3);
-        put(frame, static_cast<std::uint64_t>(part.height - 1), 3);
-        put(frame, static_cast<std::uint64_t>(time_ms(frames_ + 1) - time_ms(frames_)), 3);
-        put(frame, kReplace, 1);
+        put_little_endian(frame, static_cast<std::uint64_t>(part.x / 2), 3);
+        put_little_endian(frame, static_cast<std::uint64_t>(part.y / 2), 3);
+        put_little_endian(frame, static_cast<std::uint64_t>(part.width - 1), 3);
+        put_little_endian(frame, static_cast<std::uint64_t>(part.height - 1), 3);
+        put_little_endian(frame,
+                          static_cast<std::uint64_t>(time_ms(frames_ + 1) - time_ms(frames_)), 3);
+        put_little_endian(frame, kReplace, 1);
         append(chunk("ANMF", frame + pixels));
         ++frames_;
     }
@@ -222,7 +223,7 @@ class WebpFilm final : public FrameSink {
             throw Failure(FailureKind::kOutput,
                           fmt::format("cannot write '{}': a WebP has at most 4 GiB", path_));
         std::string size;
-        put(size, size_ - 8, 4);
+        put_little_endian(size, size_ - 8, 4);
         if (std::fseek(stream_.get(), 4, SEEK_SET) != 0) fail();
         append(size);
         if (std::fclose(stream_.release()) != 0) fail();

@@ -10,9 +10,11 @@ namespace carom {
 namespace {
 
 // BT.709 as in yuv420.cpp, with 16 binary digits: off by at most 0.02 of a step of 10 bits.
-constexpr int kBits = 16;
+constexpr int kFixedBits = 16;
 
-constexpr int fixed(double x) { return static_cast<int>(x * (1 << kBits) + (x < 0 ? -0.5 : 0.5)); }
+constexpr int to_fixed(double x) {
+    return static_cast<int>(x * (1 << kFixedBits) + (x < 0 ? -0.5 : 0.5));
+}
 
 /// Y' = offset + (r R + g G + b B) / 2^16 for samples of this many bits; likewise Cb and Cr.
 struct Coefficients {
@@ -25,9 +27,9 @@ constexpr Coefficients coefficients(int bits) {
     const double luma = 219.0 / 255 * scale;
     const double cb = 224.0 / 255 / 1.8556 * scale, cr = 224.0 / 255 / 1.5748 * scale;
     Coefficients c{};
-    c.yr = fixed(luma * red), c.yb = fixed(luma * blue), c.yg = fixed(luma) - c.yr - c.yb;
-    c.cbr = fixed(-cb * red), c.cbb = fixed(cb * (1 - blue)), c.cbg = -c.cbr - c.cbb;
-    c.crr = fixed(cr * (1 - red)), c.crb = fixed(-cr * blue), c.crg = -c.crr - c.crb;
+    c.yr = to_fixed(luma * red), c.yb = to_fixed(luma * blue), c.yg = to_fixed(luma) - c.yr - c.yb;
+    c.cbr = to_fixed(-cb * red), c.cbb = to_fixed(cb * (1 - blue)), c.cbg = -c.cbr - c.cbb;
+    c.crr = to_fixed(cr * (1 - red)), c.crb = to_fixed(-cr * blue), c.crg = -c.crr - c.crb;
     return c;
 }
 
@@ -40,13 +42,13 @@ Sample* samples(const FramePlanes& planes, std::size_t plane, int y) {
 template <int kSampleBits, class Sample>
 void convert_luma(const Image& image, const PixelRect& part, const FramePlanes& planes) {
     constexpr Coefficients c = coefficients(kSampleBits);
-    constexpr int kOffset = (16 << (kSampleBits - 8 + kBits)) + (1 << (kBits - 1));
+    constexpr int kOffset = (16 << (kSampleBits - 8 + kFixedBits)) + (1 << (kFixedBits - 1));
     for (int y = part.top; y < part.bottom; ++y) {
         const std::uint8_t* p = image.row(y) + std::ptrdiff_t{4} * part.left;
         Sample* out = samples<Sample>(planes, 0, y);
         for (int x = part.left; x < part.right; ++x, p += 4)
-            out[x] =
-                static_cast<Sample>((c.yr * p[2] + c.yg * p[1] + c.yb * p[0] + kOffset) >> kBits);
+            out[x] = static_cast<Sample>((c.yr * p[2] + c.yg * p[1] + c.yb * p[0] + kOffset) >>
+                                         kFixedBits);
     }
 }
 
@@ -54,7 +56,7 @@ void convert_luma(const Image& image, const PixelRect& part, const FramePlanes& 
 template <int kSampleBits, int kWeightBits, class Sample>
 void put_chroma(int b, int g, int r, Sample& cb, Sample& cr) {
     constexpr Coefficients c = coefficients(kSampleBits);
-    constexpr int kShift = kBits + kWeightBits;
+    constexpr int kShift = kFixedBits + kWeightBits;
     constexpr int kOffset = (128 << (kSampleBits - 8 + kShift)) + (1 << (kShift - 1));
     cb = static_cast<Sample>((c.cbr * r + c.cbg * g + c.cbb * b + kOffset) >> kShift);
     cr = static_cast<Sample>((c.crr * r + c.crg * g + c.crb * b + kOffset) >> kShift);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kByPowers = 50;  // largest over smallest value
 
-struct Range {
+struct ValueRange {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     void add(double value) {
         if (!std::isfinite(value)) return;
@@ -59,7 +59,7 @@ std::string drawn(const ScatterSeries& series, const PlotFrame& frame, bool by_p
 }  // namespace
 
 std::string scatter_plot(const ScatterPlot& plot) {
-    Range across, upwards;
+    ValueRange across, upwards;
     std::size_t points = 0;
     for (const ScatterSeries& series : plot.series)
         for (std::size_t i = 0; i < series.x.size(); ++i) {

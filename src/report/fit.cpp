@@ -8,23 +8,19 @@
 #include <numeric>
 
 #include "core/check.h"
-#include "core/failure.h"
+#include "report/fit_refusal.h"
 #include "scene/virtual_body.h"
 
 namespace carom {
 
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;  // P(|z| < 1.96) = 0.95
-
-[[noreturn]] void fail(const std::string& message) { throw Failure(FailureKind::kInput, message); }
-
 /// Bottom to bottom, m.
 double rebound_of(const MeasuredDrop& drop, const FitOptions& options) {
     if (!(drop.drop_m > 0))
-        fail(fmt::format("{}: a drop of {} m; it must be above 0", drop.where, drop.drop_m));
+        refuse_fit(fmt::format("{}: a drop of {} m; it must be above 0", drop.where, drop.drop_m));
     if (!(drop.rebound_m > 0))
-        fail(
+        refuse_fit(
             fmt::format("{}: a rebound of {} m; it must be above 0 (a ball that does not rebound "
                         "has `restitution: 0`)",
                         drop.where, drop.rebound_m));
@@ -32,14 +28,14 @@ double rebound_of(const MeasuredDrop& drop, const FitOptions& options) {
     if (options.rebound_to == ReboundTo::kTop) {
         rebound -= options.diameter_m;
         if (!(rebound > 0))
-            fail(
+            refuse_fit(
                 fmt::format("{}: a rebound of {} m to the top of a ball of {} m: it has not left "
                             "the floor",
                             drop.where, drop.rebound_m, options.diameter_m));
     }
     if (rebound > drop.drop_m)
-        fail(fmt::format("{}: a rebound of {} m is higher than the drop of {} m", drop.where,
-                         rebound, drop.drop_m));
+        refuse_fit(fmt::format("{}: a rebound of {} m is higher than the drop of {} m", drop.where,
+                               rebound, drop.drop_m));
     return rebound;
 }
 
@@ -59,7 +55,7 @@ Estimate estimate_of_drops(const std::vector<MeasuredDrop>& drops, const FitOpti
         single.push_back(options.air ? options.air->restitution(drop.drop_m, rebound)
                                      : std::sqrt(rebound / drop.drop_m));  // Eq. 9
         if (!(single.back() <= 1))
-            fail(
+            refuse_fit(
                 fmt::format("{}: a coefficient of {:.4g}: in this air the ball would have to gain "
                             "energy; are radius, mass and drag those of the ball?",
                             drop.where, single.back()));
@@ -83,10 +79,10 @@ Estimate estimate_of_drops(const std::vector<MeasuredDrop>& drops, const FitOpti
 Estimate estimate_of_intervals(const std::vector<double>& times, const FitOptions& options,
                                std::vector<double>& single) {
     if (times.size() < 2)
-        fail("one interval between bounces is not enough: their ratio is the coefficient");
+        refuse_fit("one interval between bounces is not enough: their ratio is the coefficient");
     for (std::size_t i = 0; i < times.size(); ++i)
         if (!(times[i] > 0))
-            fail(fmt::format("interval {}: {} s; it must be above 0", i + 1, times[i]));
+            refuse_fit(fmt::format("interval {}: {} s; it must be above 0", i + 1, times[i]));
     // The logarithms that fall by ln ε from bounce to bounce, and their change with a time [1/s].
     std::vector<double> logs, rates;
     double lost = 0;
@@ -112,7 +108,7 @@ Estimate estimate_of_intervals(const std::vector<double>& times, const FitOption
     }
     slope /= spread;
     if (slope > 0)
-        fail(
+        refuse_fit(
             fmt::format("the intervals grow, by a factor of {:.4g} from bounce to bounce; those of "
                         "a bouncing ball shrink",
                         std::exp(slope)));

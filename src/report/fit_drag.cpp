@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/failure.h"
+#include "report/fit_refusal.h"
 #include "scene/air.h"
 
 namespace carom {
@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-[[noreturn]] void fail(const std::string& message) { throw Failure(FailureKind::kInput, message); }
 
 /// What is looked for: ln u_0, ln ε, and k = 1 / V^2 in units of `unit`.
 struct Course {
@@ -119,15 +117,15 @@ Course least_squares(const std::vector<double>& measured, double gravity) {
 void require_series(const std::vector<double>& intervals, bool reading_error) {
     const std::size_t least = reading_error ? 4 : 5;
     if (intervals.size() < least)
-        fail(fmt::format(
+        refuse_fit(fmt::format(
             "--fit-drag: {} intervals do not tell restitution and drag apart; it takes "
             "at least {}{}, and better ten",
             intervals.size(), least, reading_error ? "" : " (4 with a --reading-error)"));
     for (std::size_t i = 0; i < intervals.size(); ++i)
         if (!(intervals[i] > 0))
-            fail(fmt::format("interval {}: {} s; it must be above 0", i + 1, intervals[i]));
+            refuse_fit(fmt::format("interval {}: {} s; it must be above 0", i + 1, intervals[i]));
     if (!(intervals.back() < intervals.front()))
-        fail("the intervals grow; those of a bouncing ball shrink");
+        refuse_fit("the intervals grow; those of a bouncing ball shrink");
 }
 
 }  // namespace
@@ -137,12 +135,11 @@ DragFit fit_drag(const std::vector<double>& intervals, const DragBall& ball,
     require_series(intervals, reading_error.has_value());
     double gravity = ball.gravity;
     if (ball.air.buoyancy) gravity *= 1 - buoyant_part(ball.air, ball.radius, ball.mass);
-    if (!(gravity > 0)) fail("the ball is lighter than the air that it displaces");
+    if (!(gravity > 0)) refuse_fit("the ball is lighter than the air that it displaces");
     const Course course = least_squares(intervals, gravity);
     const Squares end = squares(course, intervals);
 
     const int degrees = static_cast<int>(intervals.size()) - 3;
-    constexpr double kNormal95 = 1.959963984540054;
     double variance = reading_error ? *reading_error * *reading_error : 0;
     double covered = kNormal95;
     if (const double scatter = end.sum / degrees; scatter > variance) {
@@ -166,14 +163,15 @@ DragFit fit_drag(const std::vector<double>& intervals, const DragBall& ball,
     fit.residual_s = std::sqrt(end.sum / degrees);
     constexpr double kCarried = 0.5;
     if (!(fit.drag.high - fit.drag.value < kCarried * fit.drag.value))
-        fail(fmt::format(
+        refuse_fit(fmt::format(
             "--fit-drag: these intervals do not tell the drag: C_D = {:.2g} ± {:.2g} at "
             "95 %. It shows in fast bounces of a light ball: drop it from higher, "
             "take more bounces or read them finer; or give --drag and leave this out",
             fit.drag.value, fit.drag.high - fit.drag.value));
     if (!(fit.restitution.value <= 1))
-        fail(fmt::format("a coefficient of {:.4g}: in this air the ball would have to gain energy",
-                         fit.restitution.value));
+        refuse_fit(
+            fmt::format("a coefficient of {:.4g}: in this air the ball would have to gain energy",
+                        fit.restitution.value));
     return fit;
 }
 

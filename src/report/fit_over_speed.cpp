@@ -6,16 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/failure.h"
+#include "report/fit_refusal.h"
 
 namespace carom {
 
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;  // P(|z| < 1.96) = 0.95
-constexpr double kGravity = 9.81;                // m/s^2, of a scene
-
-[[noreturn]] void fail(const std::string& message) { throw Failure(FailureKind::kInput, message); }
+constexpr double kGravity = 9.81;  // m/s^2, of a scene
 
 /// A straight line y = level + slope (x - middle), and what its two numbers err by.
 struct Line {
@@ -61,12 +58,13 @@ void require_enough(const SpeedFit& fit, const FitOptions& options) {
     // A tenth of a height apart: closer, and the law hangs on the readings' last digits.
     constexpr double kApart = 1.05;
     if (!(fit.highest > kApart * fit.lowest))
-        fail(
+        refuse_fit(
             fmt::format("--over-speed: the impacts have speeds of {:.4g} to {:.4g} m/s, which are "
                         "one: drop from heights that differ, at best by a factor of 4",
                         fit.lowest, fit.highest));
     if (fit.speeds.size() < 3 && !options.reading_error)
-        fail("--over-speed: two drops fit every law exactly: give a third, or the --reading-error");
+        refuse_fit(
+            "--over-speed: two drops fit every law exactly: give a third, or the --reading-error");
 }
 
 }  // namespace
@@ -109,7 +107,7 @@ SpeedFit fit_over_speed(const std::vector<MeasuredDrop>& drops, const FitOptions
             line = fit_line(x, y, weight);
         }
     if (!(-line.slope < 1))
-        fail(
+        refuse_fit(
             fmt::format("--over-speed: an exponent of {:.4g}: from greater heights the ball would "
                         "rebound more slowly, which no scene has",
                         -line.slope));

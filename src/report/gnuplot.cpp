@@ -27,7 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& message) { throw Failure(FailureKind::kRun, message); }
+[[noreturn]] void fail_plotting(const std::string& message) {
+    throw Failure(FailureKind::kRun, message);
+}
 
 /// Our own environment, but for what would change the plot.
 std::vector<std::string> environment() {
@@ -106,7 +108,7 @@ std::string read_all(int descriptor) {
 Finished run(std::vector<std::string> arguments, const std::stop_token& stop) {
     std::array<int, 2> pipe{};
     if (pipe2(pipe.data(), O_CLOEXEC) != 0)
-        fail(fmt::format("making a pipe to gnuplot: {}", std::strerror(errno)));
+        fail_plotting(fmt::format("making a pipe to gnuplot: {}", std::strerror(errno)));
     const SpawnSettings settings(pipe[1], pipe[0]);
     std::vector<std::string> variables = environment();
     pid_t child = 0;
@@ -117,8 +119,9 @@ Finished run(std::vector<std::string> arguments, const std::stop_token& stop) {
     if (error != 0) {
         close(pipe[0]);
         if (error == ENOENT)
-            fail("gnuplot draws the plots and is not installed: apt-get install gnuplot-nox");
-        fail(fmt::format("starting gnuplot: {}", std::strerror(error)));
+            fail_plotting(
+                "gnuplot draws the plots and is not installed: apt-get install gnuplot-nox");
+        fail_plotting(fmt::format("starting gnuplot: {}", std::strerror(error)));
     }
     Finished finished;
     {
@@ -133,7 +136,7 @@ Finished run(std::vector<std::string> arguments, const std::stop_token& stop) {
     }
     while (waitpid(child, &finished.status, 0) < 0 && errno == EINTR) {
     }
-    if (stop.stop_requested()) fail("interrupted while gnuplot was running");
+    if (stop.stop_requested()) fail_plotting("interrupted while gnuplot was running");
     return finished;
 }
 
@@ -195,7 +198,8 @@ std::string gnuplot_version() {
     // It prints on standard error.
     const Finished finished = run(
         {"gnuplot", "-d", "-e", "print sprintf('%.1f.%s', GPVAL_VERSION, GPVAL_PATCHLEVEL)"}, {});
-    if (finished.status != 0) fail(fmt::format("asking for its version: {}", finished.errors));
+    if (finished.status != 0)
+        fail_plotting(fmt::format("asking for its version: {}", finished.errors));
     return finished.errors.substr(0, finished.errors.find('\n'));
 }
 
@@ -210,8 +214,9 @@ void run_gnuplot(const std::string& script, const std::string& attempt,
         throw Failure(FailureKind::kOutput,
                       fmt::format("{}: {} (ulimit -f)", attempt, std::strerror(EFBIG)));
     if (WIFSIGNALED(finished.status))
-        fail(fmt::format("{}: gnuplot was ended by signal {}", attempt, WTERMSIG(finished.status)));
-    fail(fmt::format("{}: gnuplot failed: {}", attempt, finished.errors));
+        fail_plotting(
+            fmt::format("{}: gnuplot was ended by signal {}", attempt, WTERMSIG(finished.status)));
+    fail_plotting(fmt::format("{}: gnuplot failed: {}", attempt, finished.errors));
 }
 
 void write_plot(const Plot& plot, const std::string& path, Existing existing,

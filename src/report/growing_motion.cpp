@@ -19,8 +19,9 @@ namespace {
 constexpr std::chrono::milliseconds kBetweenPieces{2};
 constexpr std::chrono::milliseconds kBetweenSigns{100};
 
-/// Pieces that wait to be used, 20 MB.
-constexpr std::size_t kMostWaiting = 1 << 16;
+/// Pieces that wait to be used, 5 MB: what is simulated in some 10 ms, five times what comes at
+/// once.
+constexpr std::size_t kMostWaiting = 1 << 14;
 
 constexpr double kEnd = std::numeric_limits<double>::infinity();
 
@@ -127,16 +128,17 @@ bool GrowingMotion::is_full() const { return bounded_ && waiting_pieces_ > kMost
 /// Waits until it is enough, and puts what comes into motion_.
 void GrowingMotion::fetch(const std::function<bool()>& is_enough,
                           const std::function<void()>& waiting) {
+    auto next_sign = std::chrono::steady_clock::now() + kBetweenSigns;
     for (bool done = false; !done;) {
+        if (std::chrono::steady_clock::now() >= next_sign) {
+            if (waiting) waiting();
+            next_sign = std::chrono::steady_clock::now() + kBetweenSigns;
+        }
         std::vector<MotionLog> pieces;
         {
             std::unique_lock lock(mutex_);
             const auto has_news = [&] { return ended_ || is_enough() || is_full(); };
-            while (!news_.wait_for(lock, kBetweenSigns, has_news)) {
-                lock.unlock();
-                if (waiting) waiting();
-                lock.lock();
-            }
+            if (!news_.wait_until(lock, next_sign, has_news)) continue;
             if (failure_) std::rethrow_exception(failure_);
             done = ended_ || is_enough();
             pieces.swap(pieces_);

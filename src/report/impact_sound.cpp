@@ -19,8 +19,8 @@ constexpr double kLowest = 120, kHighest = 9'000;  // Hz
 constexpr double kPeriods = 8;
 constexpr double kAudible = 1e-4;  ///< of the largest
 constexpr double kLoudest = 0.8;
-constexpr double kTail = 0.3;          ///< s after the end: what begins there is heard out
-constexpr double kLongest = 3600 * 6;  // s
+constexpr double kTail = 0.3;               ///< s after the end: what begins there is heard out
+constexpr double kLongestSound = 3600 * 6;  // s
 
 double smaller_radius(const Scene& scene, const Event& impact) {
     double radius = scene.balls[static_cast<std::size_t>(impact.ball)].radius;
@@ -45,9 +45,9 @@ void add_click(SoundSamples& sound, double at, double level, double pitch) {
 
 SoundSamples impact_sound(const Scene& scene, const Motion& motion) {
     const double seconds = film_time(scene.film, motion.duration);
-    if (!(seconds <= kLongest))
-        throw Failure(FailureKind::kInput,
-                      fmt::format("{:.0f} s of sound; at most {:.0f} are made", seconds, kLongest));
+    if (!(seconds <= kLongestSound))
+        throw Failure(FailureKind::kInput, fmt::format("{:.0f} s of sound; at most {:.0f} are made",
+                                                       seconds, kLongestSound));
     SoundSamples sound;
     sound.rate = kRate;
     sound.samples.resize(static_cast<std::size_t>(std::ceil((seconds + kTail) * kRate)));

@@ -46,7 +46,7 @@ std::optional<OddBlank> in_line(std::string_view line, int number) {
         if (indenting && c == '\t') return OddBlank{number, column, "a tab"};
         const bool outside = quote == 0;
         if (outside && c == '#' && (i == 0 || line[i - 1] == ' ')) return std::nullopt;
-        if (outside)
+        if (outside && static_cast<unsigned char>(c) >= 0x80U)  // as all of them begin
             for (const Blank& blank : kBlanks)
                 if (line.substr(i).starts_with(blank.bytes))
                     return OddBlank{number, column, blank.name};

@@ -125,7 +125,7 @@ Sample towards_the_viewer() {
     return sample;
 }
 
-class FramedMotion : public testing::TestWithParam<double> {};
+class FramedMotion : public ::testing::TestWithParam<double> {};
 
 TEST_P(FramedMotion, HoldsEveryBallAtEveryTime) {
     const double aspect = GetParam();
@@ -153,7 +153,7 @@ TEST_P(FramedMotion, HoldsEveryBallAtEveryTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Aspects, FramedMotion,
-                         testing::Values(16.0 / 9, 4.0 / 3, 1.0, 9.0 / 16, 2.4));
+                         ::testing::Values(16.0 / 9, 4.0 / 3, 1.0, 9.0 / 16, 2.4));
 
 TEST(ChooseCamera, LeavesRoomAtTheTopForTheClock) {
     const Sample sample = samples::drop(1.8, 0.12, 4);

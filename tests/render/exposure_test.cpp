@@ -17,7 +17,7 @@ using testing::encoded_of;
 using testing::HandMadeScene;
 using testing::linear_of;
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kExposureWidth = 320, kExposureHeight = 180;
 
 HandMadeScene flying_ball(double shutter_deg, const Vec3& velocity = {6, 0, 0}) {
     HandMadeScene made;
@@ -80,7 +80,7 @@ TEST(Exposure, TakesAsManyInstantsAsPixelsOfWay) {
 // A ball at 6 m/s, 1/48 s: the way in pixels is its speed, projected.
 TEST(Exposure, WayIsMeasuredInThePicture) {
     const HandMadeScene made = flying_ball(180);
-    const View view(*made.scene.camera, kWidth, kHeight);
+    const View view(*made.scene.camera, kExposureWidth, kExposureHeight);
     const Exposure exposure(made.scene.film, 10, 0.2);
     const double expected = 6.0 / 48 * view.pixels_per_metre(4);
     const BallWay found = ball_ways_px(made.scene, made.motion, exposure, view).at(0);
@@ -99,7 +99,7 @@ TEST(Exposure, SpinCountsWhereItShows) {
         made.ball({0, 0, 0}, 0.2, made.look(style, {1, 0, 0}, {1, 1, 1}), {0, 0, 50});
         made.scene.film.fps = {24, 1};
         made.scene.film.shutter_deg = 180;
-        const View view(*made.scene.camera, kWidth, kHeight);
+        const View view(*made.scene.camera, kExposureWidth, kExposureHeight);
         const Exposure exposure(made.scene.film, 10, 1);
         const double way = ball_ways_px(made.scene, made.motion, exposure, view).at(0).seen;
         const double equator = 50 * 0.2 / 48 * view.pixels_per_metre(4);
@@ -110,7 +110,7 @@ TEST(Exposure, SpinCountsWhereItShows) {
 // Beside the picture nothing is seen of a ball, but its shadow may be.
 TEST(Exposure, WayBesideThePictureIsToldApart) {
     const HandMadeScene made = flying_ball(180, {60, 0, 0});
-    const View view(*made.scene.camera, kWidth, kHeight);
+    const View view(*made.scene.camera, kExposureWidth, kExposureHeight);
     const BallWay way =
         ball_ways_px(made.scene, made.motion, Exposure(made.scene.film, 10, 5), view).at(0);
     EXPECT_EQ(0, way.seen);
@@ -154,15 +154,15 @@ TEST(MotionBlur, EachBallHasTheInstantsThatItNeeds) {
         made.scene.film.shutter_deg = shutter_deg;
         for (const auto& [place, velocity] : balls)
             made.ball(place - t * velocity, 0.2, 0, Vec3::Zero(), velocity);
-        return made.paint(kWidth, kHeight, t);
+        return made.paint(kExposureWidth, kExposureHeight, t);
     };
     const std::pair<Vec3, Vec3> left{{-0.9, 0, 0.4}, fast}, right{{0.9, 0, -0.4}, slow};
     const Image one = picture({left}, 180), other = picture({right}, 180);
     const Image both = picture({left, right}, 180);
     int largest = 0;  // of the slow one, which may have a few instants more than alone
-    for (int y = 0; y < kHeight; ++y) {
-        EXPECT_TRUE(std::equal(one.row(y), one.row(y) + 2 * kWidth, both.row(y))) << y;
-        for (int i = 2 * kWidth; i < 4 * kWidth; ++i)
+    for (int y = 0; y < kExposureHeight; ++y) {
+        EXPECT_TRUE(std::equal(one.row(y), one.row(y) + 2 * kExposureWidth, both.row(y))) << y;
+        for (int i = 2 * kExposureWidth; i < 4 * kExposureWidth; ++i)
             largest = std::max(largest, std::abs(other.row(y)[i] - both.row(y)[i]));
     }
     EXPECT_LE(largest, 3);
@@ -174,15 +174,15 @@ TEST(MotionBlur, EachBallHasTheInstantsThatItNeeds) {
         same += hidden.bgra[i] == sharp.bgra[i] ? 1 : 0;
         moved += std::abs(hidden.bgra[i] - one.bgra[i]) > 20 ? 1 : 0;
     }
-    EXPECT_GT(same, 4 * kWidth * kHeight * 8 / 10);
+    EXPECT_GT(same, 4 * kExposureWidth * kExposureHeight * 8 / 10);
     EXPECT_GT(moved, 1000);
 }
 
 /// The mean of so many sharp pictures while the shutter is open, in linear light.
 Image mean_of_instants(const HandMadeScene& sharp, const Exposure& exposure, int count) {
-    Painter painter(sharp.scene, sharp.motion, {kWidth, kHeight});
-    std::vector<double> sum(std::size_t{4} * kWidth * kHeight);
-    Image mean(kWidth, kHeight), one;
+    Painter painter(sharp.scene, sharp.motion, {kExposureWidth, kExposureHeight});
+    std::vector<double> sum(std::size_t{4} * kExposureWidth * kExposureHeight);
+    Image mean(kExposureWidth, kExposureHeight), one;
     for (const double instant : exposure_instants(exposure, count)) {
         painter.paint(instant, one);
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += linear_of(one.bgra[i]);
@@ -203,8 +203,8 @@ int values_beyond(const Image& a, const Image& b, int off) {
 TEST(MotionBlur, IsTheMeanOverTimeInLinearLight) {
     const HandMadeScene blurred = flying_ball(180), sharp = flying_ball(0);
     const double t = 0.2;
-    const Image picture = blurred.paint(kWidth, kHeight, t);
-    const View view(*blurred.scene.camera, kWidth, kHeight);
+    const Image picture = blurred.paint(kExposureWidth, kExposureHeight, t);
+    const View view(*blurred.scene.camera, kExposureWidth, kExposureHeight);
     const Exposure exposure(blurred.scene.film, 10, t);
     const BallWay way = ball_ways_px(blurred.scene, blurred.motion, exposure, view).at(0);
     const int count = exposure_count(way.seen);
@@ -216,7 +216,7 @@ TEST(MotionBlur, IsTheMeanOverTimeInLinearLight) {
                instants);
     EXPECT_LE(found, instants);
     EXPECT_LE(found, 4);
-    EXPECT_GT(values_beyond(truth, sharp.paint(kWidth, kHeight, t), 20), 500)
+    EXPECT_GT(values_beyond(truth, sharp.paint(kExposureWidth, kExposureHeight, t), 20), 500)
         << "nothing was blurred";
 }
 
@@ -224,20 +224,20 @@ TEST(MotionBlur, IsTheMeanOverTimeInLinearLight) {
 TEST(MotionBlur, LeavesNoSteps) {
     const HandMadeScene made = flying_ball(360, {6, 0, 0}), sharp = flying_ball(0, {6, 0, 0});
     const double t = 0.1;
-    const Image picture = made.paint(kWidth, kHeight, t);
+    const Image picture = made.paint(kExposureWidth, kExposureHeight, t);
     const Exposure exposure(made.scene.film, 10, t);
-    Painter painter(sharp.scene, sharp.motion, {kWidth, kHeight});
+    Painter painter(sharp.scene, sharp.motion, {kExposureWidth, kExposureHeight});
     constexpr int kFine = 400;
     const int y = 82;
-    std::vector<double> sum(kWidth);
+    std::vector<double> sum(kExposureWidth);
     Image one;
     for (int i = 0; i < kFine; ++i) {
         painter.paint(exposure.at((i + 0.5) / kFine), one);
-        for (int x = 0; x < kWidth; ++x)
+        for (int x = 0; x < kExposureWidth; ++x)
             sum[static_cast<std::size_t>(x)] += linear_of(one.row(y)[4 * x]);
     }
     int largest = 0;
-    for (int x = 0; x < kWidth; ++x) {
+    for (int x = 0; x < kExposureWidth; ++x) {
         const int fine = encoded_of(sum[static_cast<std::size_t>(x)] / kFine);
         largest = std::max(largest, std::abs(fine - int{picture.row(y)[4 * x]}));
     }
@@ -261,9 +261,9 @@ TEST(MotionBlur, FewInstantsLeaveLittleOfEach) {
         };
         const HandMadeScene made = spinning(360), sharp = spinning(0);
         const double t = 0.5;
-        const Image picture = made.paint(kWidth, kHeight, t);
+        const Image picture = made.paint(kExposureWidth, kExposureHeight, t);
         const Exposure exposure(made.scene.film, 10, t);
-        Painter painter(sharp.scene, sharp.motion, {kWidth, kHeight});
+        Painter painter(sharp.scene, sharp.motion, {kExposureWidth, kExposureHeight});
         constexpr int kFine = 60;
         std::vector<double> sum(picture.bgra.size());
         Image one;
@@ -271,7 +271,7 @@ TEST(MotionBlur, FewInstantsLeaveLittleOfEach) {
             painter.paint(instant, one);
             for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += linear_of(one.bgra[i]);
         }
-        const View view(*made.scene.camera, kWidth, kHeight);
+        const View view(*made.scene.camera, kExposureWidth, kExposureHeight);
         const double way = ball_ways_px(made.scene, made.motion, exposure, view).at(0).seen;
         int largest = 0, changed = 0;
         for (std::size_t i = 0; i < sum.size(); ++i) {
@@ -319,7 +319,7 @@ TEST(MotionBlur, IsNearTheMeanOfManyInstants) {
                 return scene;
             };
             const HandMadeScene open = made(180), sharp = made(0);
-            const Image picture = open.paint(kWidth, kHeight, t);
+            const Image picture = open.paint(kExposureWidth, kExposureHeight, t);
             constexpr int kMany = 128;
             const Image truth = mean_of_instants(sharp, Exposure(open.scene.film, 10, t), kMany);
             const int largest = compare_images(truth, picture).largest;
@@ -329,7 +329,8 @@ TEST(MotionBlur, IsNearTheMeanOfManyInstants) {
                 "more than 3\n",
                 static_cast<int>(style), mirror ? ", mirrored" : "", kMany, largest, beyond);
             EXPECT_LE(largest, 8);
-            EXPECT_GT(values_beyond(truth, sharp.paint(kWidth, kHeight, t), 20), 1000)
+            EXPECT_GT(values_beyond(truth, sharp.paint(kExposureWidth, kExposureHeight, t), 20),
+                      1000)
                 << "nothing was blurred";
         }
     }
@@ -337,11 +338,13 @@ TEST(MotionBlur, IsNearTheMeanOfManyInstants) {
 
 TEST(MotionBlur, WhatStandsStillAndTheClockStaySharp) {
     HandMadeScene blurred = flying_ball(180, Vec3::Zero()), sharp = flying_ball(0, Vec3::Zero());
-    EXPECT_EQ(sharp.paint(kWidth, kHeight, 0.2), blurred.paint(kWidth, kHeight, 0.2));
+    EXPECT_EQ(sharp.paint(kExposureWidth, kExposureHeight, 0.2),
+              blurred.paint(kExposureWidth, kExposureHeight, 0.2));
 
     HandMadeScene moving = flying_ball(180), frozen = flying_ball(0);
     moving.scene.overlay.clock = frozen.scene.overlay.clock = ClockOptions{};
-    const Image a = moving.paint(kWidth, kHeight, 0.2), b = frozen.paint(kWidth, kHeight, 0.2);
+    const Image a = moving.paint(kExposureWidth, kExposureHeight, 0.2),
+                b = frozen.paint(kExposureWidth, kExposureHeight, 0.2);
     for (int y = 0; y < 30; ++y)
         EXPECT_TRUE(std::equal(a.row(y), a.row(y) + 4 * 80, b.row(y))) << y;
     EXPECT_NE(a, b);
@@ -352,7 +355,7 @@ TEST(MotionBlur, AStrobeIsSharp) {
     std::array<Image, 2> strobes;
     for (int i = 0; i < 2; ++i) {
         const HandMadeScene& made = i == 0 ? blurred : sharp;
-        Painter painter(made.scene, made.motion, {kWidth, kHeight});
+        Painter painter(made.scene, made.motion, {kExposureWidth, kExposureHeight});
         painter.paint_strobe({0.1, 0.3}, strobes[static_cast<std::size_t>(i)]);
     }
     EXPECT_EQ(strobes[0], strobes[1]);
@@ -362,9 +365,10 @@ TEST(MotionBlur, AStrobeIsSharp) {
 TEST(MotionBlur, OfAMovingCamera) {
     HandMadeScene made = flying_ball(360, Vec3::Zero());
     made.scene.camera->orbit_deg_per_s = 60;
-    const Image blurred = made.paint(kWidth, kHeight, 0.5);
+    const Image blurred = made.paint(kExposureWidth, kExposureHeight, 0.5);
     made.scene.film.shutter_deg = 0;
-    const ImageDifference d = compare_images(blurred, made.paint(kWidth, kHeight, 0.5));
+    const ImageDifference d =
+        compare_images(blurred, made.paint(kExposureWidth, kExposureHeight, 0.5));
     EXPECT_GT(d.largest, 30);
 }
 

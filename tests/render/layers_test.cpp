@@ -12,14 +12,14 @@
 namespace carom {
 namespace {
 
-constexpr int kWidth = 123, kHeight = 77;
+constexpr int kLayersWidth = 123, kLayersHeight = 77;
 
 /// One surface of each kind, and balls that fly among them; one comes close to the eye.
-struct Sample {
+struct LayerSample {
     Scene scene;
     Motion motion;
 
-    Sample() {
+    LayerSample() {
         scene.camera.emplace();
         scene.camera->from = Vec3(0.4, -4, 1.6);
         scene.camera->to = Vec3(0, 0, 0.5);
@@ -46,15 +46,15 @@ struct Sample {
     void add(const SurfaceShape& shape) { scene.surfaces.emplace_back().shape = shape; }
 };
 
-void expect_as_by_brute_force(const Sample& sample, const LayerPainter& painter, double t) {
+void expect_as_by_brute_force(const LayerSample& sample, const LayerPainter& painter, double t) {
     const Scene& scene = sample.scene;
     std::vector<SurfaceShape> bodies;
     for (std::size_t i = 0; i < scene.balls.size(); ++i)
         bodies.emplace_back(
             SphereShape{sample.motion.balls[i].at(t).position, scene.balls[i].radius});
     for (const Surface& surface : scene.surfaces) bodies.push_back(surface.shape);
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kLayersHeight; ++y)
+        for (int x = 0; x < kLayersWidth; ++x) {
             const Ray ray = pixel_ray(painter.view(), x + 0.5, y + 0.5);
             double nearest = HUGE_VAL;
             std::size_t id = 0;
@@ -64,16 +64,16 @@ void expect_as_by_brute_force(const Sample& sample, const LayerPainter& painter,
                     id = i + 1;
                 }
             const std::size_t at =
-                static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+                static_cast<std::size_t>(y) * kLayersWidth + static_cast<std::size_t>(x);
             ASSERT_EQ(id, painter.ids()[at]) << x << " " << y << " at " << t;
             ASSERT_EQ(static_cast<float>(nearest), *painter.image(LayerKind::kDistance).at(x, y));
         }
 }
 
-void expect_for(const Sample& sample) {
+void expect_for(const LayerSample& sample) {
     const LayerSettings settings{
-        kWidth,
-        kHeight,
+        kLayersWidth,
+        kLayersHeight,
         {LayerKind::kDistance, LayerKind::kSegmentation, LayerKind::kFlow, LayerKind::kBackflow},
         nullptr};
     LayerPainter painter(sample.scene, sample.motion, settings);
@@ -88,28 +88,28 @@ void expect_for(const Sample& sample) {
     }
 }
 
-TEST(Layers, ListsOfTilesMissNothing) { expect_for(Sample()); }
+TEST(Layers, ListsOfTilesMissNothing) { expect_for(LayerSample()); }
 
 TEST(Layers, UnderAMovingCamera) {
-    Sample sample;
+    LayerSample sample;
     sample.scene.camera->orbit_deg_per_s = 120;
     expect_for(sample);
 }
 
 TEST(Layers, UnderParallelRays) {
-    Sample sample;
+    LayerSample sample;
     sample.scene.camera->orthographic_m = 3;
     expect_for(sample);
 }
 
 /// In transparent pictures without planes all that is not a body is transparent.
-void expect_as_drawn(Sample sample) {
+void expect_as_drawn(LayerSample sample) {
     sample.scene.surfaces.erase(sample.scene.surfaces.begin());
     sample.scene.background = Background::kTransparent;
     sample.scene.looks.emplace_back();
     LayerPainter layers(sample.scene, sample.motion,
-                        {kWidth, kHeight, {LayerKind::kSegmentation}, nullptr});
-    Painter painter(sample.scene, sample.motion, {kWidth, kHeight});
+                        {kLayersWidth, kLayersHeight, {LayerKind::kSegmentation}, nullptr});
+    Painter painter(sample.scene, sample.motion, {kLayersWidth, kLayersHeight});
     Image picture;
     for (const double t : {0.0, 0.4}) {
         layers.paint(t, {}, {});
@@ -128,25 +128,26 @@ void expect_as_drawn(Sample sample) {
     }
 }
 
-TEST(Layers, ShowWhatIsDrawn) { expect_as_drawn(Sample()); }
+TEST(Layers, ShowWhatIsDrawn) { expect_as_drawn(LayerSample()); }
 
 TEST(Layers, ShowWhatIsDrawnByParallelRays) {
-    Sample sample;
+    LayerSample sample;
     sample.scene.camera->orthographic_m = 3;
     expect_as_drawn(sample);
 }
 
 TEST(Layers, ChangedTilesAreAllThatDiffer) {
-    const Sample sample;
-    LayerPainter painter(sample.scene, sample.motion,
-                         {kWidth, kHeight, {LayerKind::kDepth, LayerKind::kFlow}, nullptr});
+    const LayerSample sample;
+    LayerPainter painter(
+        sample.scene, sample.motion,
+        {kLayersWidth, kLayersHeight, {LayerKind::kDepth, LayerKind::kFlow}, nullptr});
     painter.paint(0.2, 0.25, {});
     const FloatImage depth = painter.image(LayerKind::kDepth);
     const FloatImage flow = painter.image(LayerKind::kFlow);
     painter.paint(0.25, 0.3, {});
     int changed = 0;
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kLayersHeight; ++y)
+        for (int x = 0; x < kLayersWidth; ++x) {
             const bool same = *depth.at(x, y) == *painter.image(LayerKind::kDepth).at(x, y) &&
                               *flow.at(x, y) == *painter.image(LayerKind::kFlow).at(x, y);
             if (painter.changed(PixelRect::at(x, y, 1, 1)))
@@ -155,7 +156,7 @@ TEST(Layers, ChangedTilesAreAllThatDiffer) {
                 EXPECT_TRUE(same) << x << " " << y;
         }
     EXPECT_GT(changed, 0);
-    EXPECT_LT(changed, kWidth * kHeight);
+    EXPECT_LT(changed, kLayersWidth * kLayersHeight);
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace {
 
 using testing::HandMadeScene;
 
-constexpr int kWidth = 640, kHeight = 360;
+constexpr int kOrthoWidth = 640, kOrthoHeight = 360;
 constexpr double kHigh_m = 1.8;  // of the picture
-constexpr double kMetre_px = kHeight / kHigh_m;
+constexpr double kMetre_px = kOrthoHeight / kHigh_m;
 
 HandMadeScene side_view() {
     HandMadeScene scene;
@@ -51,13 +51,13 @@ Disc measure(const Image& image, int channel) {
 
 TEST(Orthographic, ProjectsMetresToPixelsAtAnyDepth) {
     const HandMadeScene scene = side_view();
-    const View view(*scene.scene.camera, kWidth, kHeight);
+    const View view(*scene.scene.camera, kOrthoWidth, kOrthoHeight);
     ASSERT_TRUE(view.orthographic());
     for (const double depth : {0.5, 7.0, 400.0}) {
         EXPECT_DOUBLE_EQ(view.pixels_per_metre(depth), kMetre_px);
         const auto p = view.project(Vec3(0.6, -7 + depth, 1.3));
-        EXPECT_NEAR(p.x_px, 0.5 * kWidth + 0.5 * kMetre_px, 1e-9);
-        EXPECT_NEAR(p.y_px, 0.5 * kHeight - 0.5 * kMetre_px, 1e-9);
+        EXPECT_NEAR(p.x_px, 0.5 * kOrthoWidth + 0.5 * kMetre_px, 1e-9);
+        EXPECT_NEAR(p.y_px, 0.5 * kOrthoHeight - 0.5 * kMetre_px, 1e-9);
         EXPECT_NEAR(p.depth_m, depth, 1e-9);
     }
 }
@@ -68,12 +68,12 @@ TEST(Orthographic, PlacesAreReadOffThePictureToHalfAPixel) {
     const double r_near = 0.1, r_far = 0.23;
     scene.ball(near, r_near, scene.look(LookStyle::kPlain, {0.8, 0.02, 0.02}));
     scene.ball(far, r_far, scene.look(LookStyle::kPlain, {0.02, 0.02, 0.8}));
-    const Image image = scene.paint(kWidth, kHeight);
+    const Image image = scene.paint(kOrthoWidth, kOrthoHeight);
     const auto check = [&](const Vec3& center, double radius, int channel) {
         const Disc disc = measure(image, channel);
         ASSERT_GT(disc.pixels, 500);
-        const double x_m = 0.1 + (disc.x_px - 0.5 * kWidth) / kMetre_px;
-        const double z_m = 0.8 - (disc.y_px - 0.5 * kHeight) / kMetre_px;
+        const double x_m = 0.1 + (disc.x_px - 0.5 * kOrthoWidth) / kMetre_px;
+        const double z_m = 0.8 - (disc.y_px - 0.5 * kOrthoHeight) / kMetre_px;
         const double off_px = std::hypot(x_m - center.x(), z_m - center.z()) * kMetre_px;
         const double radius_off_px = std::abs(disc.radius_px - radius * kMetre_px);
         fmt::print("read {:.4f} {:.4f} m, off {:.3f} px, radius off {:.3f} px (at most 0.5)\n", x_m,
@@ -88,9 +88,9 @@ TEST(Orthographic, PlacesAreReadOffThePictureToHalfAPixel) {
 TEST(Orthographic, TheGroundEndsAtItsHeight) {
     HandMadeScene scene = side_view();
     scene.surface(PlaneShape{}, scene.look(LookStyle::kPlain, {0.3, 0.3, 0.3}));
-    const Image image = scene.paint(kWidth, kHeight);
+    const Image image = scene.paint(kOrthoWidth, kOrthoHeight);
     // The floor at z = 0 lies 0.8 m below the middle: at 340 px, between two rows.
-    const double floor_px = 0.5 * kHeight + 0.8 * kMetre_px;
+    const double floor_px = 0.5 * kOrthoHeight + 0.8 * kMetre_px;
     ASSERT_NEAR(floor_px, 340, 1e-9);
     const int above = image.row(338)[4 * 100], below = image.row(341)[4 * 100];
     fmt::print("above the floor {}, below {}\n", above, below);
@@ -107,13 +107,13 @@ TEST(Orthographic, BodiesHideWhatIsBehindThem) {
     box.center = Vec3(0, 1, 0.3);
     box.size = Vec3(0.4, 0.4, 0.6);
     scene.surface(box, scene.look(LookStyle::kPlain, {0.3, 0.3, 0.3}));
-    const Image without = scene.paint(kWidth, kHeight);
-    const View view(*scene.scene.camera, kWidth, kHeight);
+    const Image without = scene.paint(kOrthoWidth, kOrthoHeight);
+    const View view(*scene.scene.camera, kOrthoWidth, kOrthoHeight);
     const int red = scene.look(LookStyle::kPlain, {0.8, 0.02, 0.02});
     const auto red_at = [&](const Vec3& center) {
         HandMadeScene one = scene;
         one.ball(center, 0.1, red);
-        return measure(one.paint(kWidth, kHeight), 2).pixels;
+        return measure(one.paint(kOrthoWidth, kOrthoHeight), 2).pixels;
     };
     const double disc = M_PI * std::pow(0.1 * kMetre_px, 2);
     const int before = red_at(box.center - 2 * view.forward());
@@ -128,7 +128,7 @@ TEST(Orthographic, OrderGoesByDepthAlone) {
     HandMadeScene scene = side_view();
     scene.ball({0.9, 0, 0.8}, 0.02);
     scene.ball({0.1, 0.3, 0.8}, 0.25);
-    const View view(*scene.scene.camera, kWidth, kHeight);
+    const View view(*scene.scene.camera, kOrthoWidth, kOrthoHeight);
     const auto balls = balls_at(0, scene.scene, scene.motion, view);
     ASSERT_EQ(balls.size(), 2U);
     EXPECT_EQ(balls.front().index, 1) << "the farther centre is drawn first";

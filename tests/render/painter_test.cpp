@@ -18,7 +18,7 @@ namespace {
 using testing::HandMadeScene;
 using testing::linear_of;
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kPainterWidth = 320, kPainterHeight = 180;
 const Color kRed{0.8, 0.05, 0.05};
 
 HandMadeScene floor_scene() {
@@ -42,9 +42,9 @@ TEST(Painter, NamesItsRenderer) {
 TEST(Painter, DrawsAnOpaquePictureThatIsNotBlank) {
     HandMadeScene scene = floor_scene();
     scene.ball({0, 0, 0.5}, 0.2, scene.look(LookStyle::kBasketball, {0.8, 0.4, 0.1}, {0, 0, 0}));
-    const Image image = scene.paint(kWidth, kHeight);
-    ASSERT_EQ(image.width_px, kWidth);
-    ASSERT_EQ(image.height_px, kHeight);
+    const Image image = scene.paint(kPainterWidth, kPainterHeight);
+    ASSERT_EQ(image.width_px, kPainterWidth);
+    ASSERT_EQ(image.height_px, kPainterHeight);
     int darkest = 255, lightest = 0;
     for (std::size_t i = 0; i < image.bgra.size(); ++i) {
         if (i % 4 == 3) {
@@ -69,7 +69,7 @@ TEST(Painter, OneProgramForAllStylesDrawsTheSamePixels) {
         scene.ball({0.32 * i - 0.96, 0.1 * (i % 3), 0.3}, 0.15, look);
     }
     const auto painted = [&](bool few_pictures) {
-        PainterOptions options{2 * kWidth, 2 * kHeight};
+        PainterOptions options{2 * kPainterWidth, 2 * kPainterHeight};
         options.few_pictures = few_pictures;
         Image image;
         Painter(scene.scene, scene.motion, options).paint(0, image);
@@ -94,8 +94,8 @@ TEST(Painter, SameInstantGivesSameBytesInAnyOrder) {
     scene.ball({-0.5, 0, 0.5}, 0.2, look, {1, 2, 3}, {0.1, 0, 0});
     scene.ball({0.5, 0.2, 0.3}, 0.2, look, {0, 0, 9}, {-0.2, 0, 0});
     scene.scene.overlay.trail = TrailOptions{};
-    Painter first(scene.scene, scene.motion, PainterOptions{kWidth, kHeight});
-    Painter second(scene.scene, scene.motion, PainterOptions{kWidth, kHeight});
+    Painter first(scene.scene, scene.motion, PainterOptions{kPainterWidth, kPainterHeight});
+    Painter second(scene.scene, scene.motion, PainterOptions{kPainterWidth, kPainterHeight});
     Image forward, later, back, alone;
     first.paint(0.25, forward);
     first.paint(1.5, later);
@@ -114,7 +114,8 @@ TEST(Painter, SpinMovesTheMarkingsOfEveryStyle) {
             HandMadeScene scene = floor_scene();
             scene.ball({0, 0, 0.6}, 0.5, scene.look(style, {0.9, 0.6, 0.2}, {0.1, 0.1, 0.3}),
                        Vec3::Unit(axis));
-            Painter painter(scene.scene, scene.motion, PainterOptions{kWidth, kHeight});
+            Painter painter(scene.scene, scene.motion,
+                            PainterOptions{kPainterWidth, kPainterHeight});
             Image before, after;
             painter.paint(0, before);
             painter.paint(0.7, after);
@@ -127,7 +128,7 @@ TEST(Painter, SpinMovesTheMarkingsOfEveryStyle) {
 TEST(Painter, SpinDoesNotShowOnAPlainBall) {
     HandMadeScene scene = floor_scene();
     scene.ball({0, 0, 0.6}, 0.5, scene.look(LookStyle::kPlain, kRed), {1, 2, 3});
-    Painter painter(scene.scene, scene.motion, PainterOptions{kWidth, kHeight});
+    Painter painter(scene.scene, scene.motion, PainterOptions{kPainterWidth, kPainterHeight});
     Image before, after;
     painter.paint(0, before);
     painter.paint(0.7, after);
@@ -142,17 +143,18 @@ TEST(Painter, ShadowLiesWhereTheLightPutsIt) {
     HandMadeScene scene = floor_scene();
     const Vec3 center(-0.4, 0.3, 0.9);
     scene.ball(center, 0.15);
-    const View view(*scene.scene.camera, kWidth, kHeight);
+    const View view(*scene.scene.camera, kPainterWidth, kPainterHeight);
     const Vec3 to_light = choose_lights(view).to_light;
     ASSERT_GT(to_light.z(), 0.3);
     const Vec3 foot = center - to_light * (center.z() / to_light.z());
     const View::Projected expected = view.project(foot);
     const double ball_bottom = view.project(center).y_px + 0.2 * view.pixels_per_metre(4);
 
-    const Image with = scene.paint(kWidth, kHeight), without = empty.paint(kWidth, kHeight);
+    const Image with = scene.paint(kPainterWidth, kPainterHeight),
+                without = empty.paint(kPainterWidth, kPainterHeight);
     double sum = 0, x_mean = 0, y_mean = 0;
-    for (int y = static_cast<int>(ball_bottom); y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = static_cast<int>(ball_bottom); y < kPainterHeight; ++y) {
+        for (int x = 0; x < kPainterWidth; ++x) {
             const double dark = linear_of(without.row(y)[4 * x]) - linear_of(with.row(y)[4 * x]);
             ASSERT_GE(dark, -1e-2);
             sum += dark;
@@ -172,7 +174,7 @@ TEST(Painter, ShadowLiesWhereTheLightPutsIt) {
 
 TEST(Painter, OverlappingShadowsAreNotDarkerThanFullShade) {
     HandMadeScene scene = floor_scene();
-    const View view(*scene.scene.camera, kWidth, kHeight);
+    const View view(*scene.scene.camera, kPainterWidth, kPainterHeight);
     const Vec3 to_light = choose_lights(view).to_light;
     // Both on one line to the lamp: the floor at the origin is in the full shade of each.
     scene.ball(to_light * 2.0, 0.3);
@@ -180,9 +182,9 @@ TEST(Painter, OverlappingShadowsAreNotDarkerThanFullShade) {
     two.ball(to_light * 3.0, 0.3);
     const View::Projected at = view.project(Vec3::Zero());
     const int x = static_cast<int>(at.x_px), y = static_cast<int>(at.y_px);
-    const int lit = floor_scene().paint(kWidth, kHeight).row(y)[4 * x + 1];
-    const int one = scene.paint(kWidth, kHeight).row(y)[4 * x + 1];
-    const int both = two.paint(kWidth, kHeight).row(y)[4 * x + 1];
+    const int lit = floor_scene().paint(kPainterWidth, kPainterHeight).row(y)[4 * x + 1];
+    const int one = scene.paint(kPainterWidth, kPainterHeight).row(y)[4 * x + 1];
+    const int both = two.paint(kPainterWidth, kPainterHeight).row(y)[4 * x + 1];
     fmt::print("lit {}, behind one ball {}, behind two {}\n", lit, one, both);
     EXPECT_LT(one, lit - 20);
     EXPECT_NEAR(both, one, 1);
@@ -196,10 +198,10 @@ TEST(Painter, BoxHidesTheBallBehindItAndNotTheOneBefore) {
     HandMadeScene before = scene, behind = scene;
     before.ball({0, -0.5, 0.5}, 0.2, red);
     behind.ball({0, 0.6, 0.35}, 0.2, red);
-    const View view(*scene.scene.camera, kWidth, kHeight);
+    const View view(*scene.scene.camera, kPainterWidth, kPainterHeight);
     const auto red_at = [&](const HandMadeScene& which, const Vec3& p) {
         const View::Projected at = view.project(p);
-        const Image image = which.paint(kWidth, kHeight);
+        const Image image = which.paint(kPainterWidth, kPainterHeight);
         const std::uint8_t* pixel =
             image.row(static_cast<int>(at.y_px)) + 4 * static_cast<int>(at.x_px);
         return pixel[2] - pixel[1];
@@ -216,11 +218,11 @@ TEST(Painter, AMovingCameraComesToSeeAWall) {
     scene.scene.camera->orbit_deg_per_s = 90;
     scene.surface(PlaneShape{Vec3(-1, 0, 0), -0.9}, scene.look(LookStyle::kPlain, {0.5, 0.6, 0.7}));
     scene.ball({1.3, 0, 0.4}, 0.3, scene.look(LookStyle::kPlain, kRed));
-    Painter moving(scene.scene, scene.motion, PainterOptions{kWidth, kHeight});
+    Painter moving(scene.scene, scene.motion, PainterOptions{kPainterWidth, kPainterHeight});
     Image first, second, standing;
     moving.paint(0, first);
     moving.paint(1, second);
-    PainterOptions options{kWidth, kHeight};
+    PainterOptions options{kPainterWidth, kPainterHeight};
     options.only_at = 1.0;
     Painter(scene.scene, scene.motion, options).paint(1, standing);
     EXPECT_TRUE(second == standing);
@@ -246,7 +248,9 @@ TEST(Painter, DrawsNothingOfBallsOutOfView) {
     scene.ball({0, 0.1, 0}, 2, red);     // around it
     scene.ball({500, 5, 0}, 1, red);     // beside the picture
     scene.ball({0, -1, 0.3}, 1.0, red);  // touches the eye's plane from behind
-    EXPECT_EQ(differing_pixels(scene.paint(kWidth, kHeight), empty.paint(kWidth, kHeight)), 0);
+    EXPECT_EQ(differing_pixels(scene.paint(kPainterWidth, kPainterHeight),
+                               empty.paint(kPainterWidth, kPainterHeight)),
+              0);
 }
 
 TEST(Painter, DrawsABallThatReachesBehindTheEye) {
@@ -254,16 +258,16 @@ TEST(Painter, DrawsABallThatReachesBehindTheEye) {
     empty.camera({0, 0, 0}, {0, 1, 0}, 90);
     HandMadeScene scene = empty;
     scene.ball({2, 0.5, 0}, 1.9, scene.look(LookStyle::kPlain, kRed));
-    const Image image = scene.paint(kWidth, kHeight);
+    const Image image = scene.paint(kPainterWidth, kPainterHeight);
     // Its outline crosses the middle row where |p - c| of the tangent ray is the radius: a ray at
     // the angle a from the view axis is tangent when the angle to the centre is asin(r / |c|).
     const double to_center = std::atan2(2, 0.5);
     const double tangent = to_center - std::asin(1.9 / std::hypot(2, 0.5));
-    const double column = kWidth / 2.0 + std::tan(tangent) * kHeight / 2.0;
+    const double column = kPainterWidth / 2.0 + std::tan(tangent) * kPainterHeight / 2.0;
     ASSERT_GT(column, 10);
-    ASSERT_LT(column, kWidth - 10);
+    ASSERT_LT(column, kPainterWidth - 10);
     const auto red_at = [&](double x) {
-        const std::uint8_t* pixel = image.row(kHeight / 2) + 4 * static_cast<int>(x);
+        const std::uint8_t* pixel = image.row(kPainterHeight / 2) + 4 * static_cast<int>(x);
         return pixel[2] - pixel[1];
     };
     EXPECT_GT(red_at(column + 2), 30);
@@ -273,15 +277,16 @@ TEST(Painter, DrawsABallThatReachesBehindTheEye) {
 TEST(Painter, TakesScenesWithoutBallsOrSurfacesAndPlanesFromBehind) {
     HandMadeScene nothing;
     nothing.camera({0, -4, 1.5}, {0, 0, 0.4});
-    const Image sky = nothing.paint(kWidth, kHeight);
-    EXPECT_EQ(differing_pixels(floor_scene().paint(kWidth, kHeight), sky) > 1000, true);
+    const Image sky = nothing.paint(kPainterWidth, kPainterHeight);
+    EXPECT_EQ(differing_pixels(floor_scene().paint(kPainterWidth, kPainterHeight), sky) > 1000,
+              true);
     HandMadeScene from_below = floor_scene();
     from_below.camera({0, -4, -1.5}, {0, 0, 0.4});
     HandMadeScene below_nothing = nothing;
     below_nothing.camera({0, -4, -1.5}, {0, 0, 0.4});
-    EXPECT_EQ(
-        differing_pixels(from_below.paint(kWidth, kHeight), below_nothing.paint(kWidth, kHeight)),
-        0);
+    EXPECT_EQ(differing_pixels(from_below.paint(kPainterWidth, kPainterHeight),
+                               below_nothing.paint(kPainterWidth, kPainterHeight)),
+              0);
 }
 
 TEST(Painter, LooksTheSameAtEveryScale) {
@@ -295,7 +300,7 @@ TEST(Painter, LooksTheSameAtEveryScale) {
         scene.surface(PlaneShape{}, 1);
         scene.surface(BoxShape{Vec3(0.6, 0, 0.2) * s, Vec3(0.4, 0.4, 0.4) * s, Quat::Identity()});
         scene.ball(Vec3(-0.4, 0, 0.3) * s, 0.2 * s, scene.look(LookStyle::kPlain, kRed));
-        return scene.paint(kWidth, kHeight);
+        return scene.paint(kPainterWidth, kPainterHeight);
     };
     const Image metres = at_scale(1);
     for (const double s : {1e-3, 1e3}) {
@@ -313,7 +318,8 @@ TEST(Painter, DrawsAThousandBalls) {
     for (int i = 0; i < 1000; ++i)
         scene.ball({-1.0 + 0.2 * (i % 10), 0.2 * (i / 10 % 10), 0.05 + 0.11 * (i / 100)}, 0.05,
                    red);
-    EXPECT_GT(differing_pixels(scene.paint(kWidth, kHeight), floor_scene().paint(kWidth, kHeight)),
+    EXPECT_GT(differing_pixels(scene.paint(kPainterWidth, kPainterHeight),
+                               floor_scene().paint(kPainterWidth, kPainterHeight)),
               5000);
 }
 
@@ -364,13 +370,13 @@ TEST(OffscreenContext, SeveralLiveInOneProcess) {
     HandMadeScene scene = floor_scene();
     scene.ball({0, 0, 0.5}, 0.3, scene.look(LookStyle::kPlain, kRed));
     Painter small(scene.scene, scene.motion, PainterOptions{64, 36});
-    Painter large(scene.scene, scene.motion, PainterOptions{kWidth, kHeight});
+    Painter large(scene.scene, scene.motion, PainterOptions{kPainterWidth, kPainterHeight});
     Image a, b, again;
     small.paint(0, a);
     large.paint(0, b);
     small.paint(0, again);
     EXPECT_TRUE(a == again);
-    EXPECT_EQ(b.width_px, kWidth);
+    EXPECT_EQ(b.width_px, kPainterWidth);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 
 using testing::HandMadeScene;
 
-constexpr int kWidth = 320, kHeight = 180;
-const Color kRed{0.8, 0.05, 0.05};
+constexpr int kSecondRunWidth = 320, kSecondRunHeight = 180;
+const Color kRunRed{0.8, 0.05, 0.05};
 
 SecondRun second_of(const HandMadeScene& made, AgainstView view = AgainstView::kGhost) {
     SecondRun second;
@@ -31,12 +31,12 @@ SecondRun second_of(const HandMadeScene& made, AgainstView view = AgainstView::k
 HandMadeScene one_ball(const Vec3& position, double radius = 0.3) {
     HandMadeScene made;
     made.camera({0, -5, 0}, {0, 0, 0});
-    made.ball(position, radius, made.look(LookStyle::kPlain, kRed));
+    made.ball(position, radius, made.look(LookStyle::kPlain, kRunRed));
     return made;
 }
 
 Image painted(const HandMadeScene& made, const SecondRun* second, double t = 0) {
-    Painter painter(made.scene, made.motion, {kWidth, kHeight, second});
+    Painter painter(made.scene, made.motion, {kSecondRunWidth, kSecondRunHeight, second});
     Image image;
     painter.paint(t, image);
     return image;
@@ -46,7 +46,7 @@ Image painted(const HandMadeScene& made, const SecondRun* second, double t = 0) 
 int differing(const Image& a, const Image& b) {
     int count = 0;
     for (int y = 30; y < 125; ++y)
-        for (int x = 0; x < kWidth; ++x)
+        for (int x = 0; x < kSecondRunWidth; ++x)
             count += std::equal(a.row(y) + 4 * x, a.row(y) + 4 * x + 4, b.row(y) + 4 * x) ? 0 : 1;
     return count;
 }
@@ -104,13 +104,14 @@ TEST(TwoRuns, FramingHoldsBothMotions) {
     a.ball({0, 0, 1}, 0.1, 0, Vec3::Zero(), {0.2, 0, 0});
     b.ball({0, 0, 1}, 0.1, 0, Vec3::Zero(), {-0.4, 0, 0});
     const BothRuns joined = both_runs(a.scene, a.motion, second_of(b));
-    const View view(choose_camera(joined.scene, joined.motion, 16.0 / 9), kWidth, kHeight);
+    const View view(choose_camera(joined.scene, joined.motion, 16.0 / 9), kSecondRunWidth,
+                    kSecondRunHeight);
     for (const double x : {2.0, -4.0}) {
         const View::Projected p = view.project({x, 0, 1});
         EXPECT_GT(p.x_px, 0);
-        EXPECT_LT(p.x_px, kWidth);
+        EXPECT_LT(p.x_px, kSecondRunWidth);
     }
-    const View alone(choose_camera(a.scene, a.motion, 16.0 / 9), kWidth, kHeight);
+    const View alone(choose_camera(a.scene, a.motion, 16.0 / 9), kSecondRunWidth, kSecondRunHeight);
     EXPECT_LT(alone.project({-4, 0, 1}).x_px, 0) << "the test shows nothing";
 }
 
@@ -130,7 +131,7 @@ TEST(TwoRuns, APictureOfTwoThreadsIsThatOfOne) {
         if (mirror) scene.scene.looks[static_cast<std::size_t>(floor)].reflection = 0.6;
         scene.surface(PlaneShape{}, floor);
         scene.surface(BoxShape{Vec3(0, -0.8, 0.1), Vec3(2, 0.1, 0.2), Quat::Identity()}, floor);
-        const int look = scene.look(LookStyle::kBasketball, kRed);
+        const int look = scene.look(LookStyle::kBasketball, kRunRed);
         scene.ball({-0.6 + shift, 0, 0.4}, 0.3, look, {0, 3, 0}, {1, 0, 0.3});
         scene.ball({0.7, 0.5 * shift, 0.3}, 0.2, look);
         scene.scene.overlay.trail = TrailOptions{};
@@ -142,7 +143,7 @@ TEST(TwoRuns, APictureOfTwoThreadsIsThatOfOne) {
             first.scene.film.shutter_deg = shutter_deg;
             const SecondRun second = second_of(made(0.25, mirror));
             const auto picture = [&](bool few_pictures) {
-                PainterOptions options{kWidth, kHeight, &second};
+                PainterOptions options{kSecondRunWidth, kSecondRunHeight, &second};
                 options.few_pictures = few_pictures;
                 Painter painter(first.scene, first.motion, options);
                 Image image;
@@ -178,14 +179,14 @@ TEST(Ghost, WhereBallsMeetEachPixelHasItsOwnOrder) {
     const Image alone = painted(solid, nullptr);
     const SecondRun left = second_of(one_ball({-0.1, 0, 0}, 0.5));
     const Image both = painted(solid, &left);
-    const int y = kHeight / 2;
+    const int y = kSecondRunHeight / 2;
     const auto changed = [&](int x) {
         return !std::equal(both.row(y) + 4 * x, both.row(y) + 4 * x + 4, alone.row(y) + 4 * x);
     };
     // The solid ball's right part is untouched, and so is its part right of the middle.
-    for (int x = kWidth / 2 + 4; x < kWidth; ++x) EXPECT_FALSE(changed(x)) << x;
+    for (int x = kSecondRunWidth / 2 + 4; x < kSecondRunWidth; ++x) EXPECT_FALSE(changed(x)) << x;
     int ghost = 0;
-    for (int x = 0; x < kWidth / 2 - 4; ++x) ghost += changed(x) ? 1 : 0;
+    for (int x = 0; x < kSecondRunWidth / 2 - 4; ++x) ghost += changed(x) ? 1 : 0;
     EXPECT_GT(ghost, 20) << "left of the middle the ghost is in front";
 }
 
@@ -195,9 +196,9 @@ TEST(SideBySide, EqualRunsGiveEqualHalves) {
     SecondRun same = second_of(made, AgainstView::kSide);
     same.differences = {{"simulation.method", "exact", "exact"}};
     const Image image = painted(made, &same);
-    ASSERT_EQ(kWidth, image.width_px);
+    ASSERT_EQ(kSecondRunWidth, image.width_px);
     int wrong = 0, dark = 0;
-    const int half = (kWidth - 2) / 2;  // a divider of 2 px, so that both halves are equal
+    const int half = (kSecondRunWidth - 2) / 2;  // a divider of 2 px, so that both halves are equal
     for (int y = 0; y < 140; ++y) {
         for (int x = 0; x < half; ++x) {
             const std::uint8_t *l = image.row(y) + 4 * x, *r = l + 4 * (half + 2);
@@ -232,10 +233,10 @@ TEST(SideBySide, HalvesDoNotGetIntoEachOthersWay) {
         return painted(left, &second, 1);
     };
     const Image both = beside(a, b), left = beside(a, a), right = beside(b, b);
-    constexpr int kHalf = (kWidth - 2) / 2;
+    constexpr int kHalf = (kSecondRunWidth - 2) / 2;
     int wrong = 0, unlike = 0;
     for (int y = 30; y < 140; ++y) {  // below the captions
-        for (int x = 0; x < kWidth; ++x) {
+        for (int x = 0; x < kSecondRunWidth; ++x) {
             const Image& same = x < kHalf ? left : right;
             const Image& other = x < kHalf ? right : left;
             const std::uint8_t* pixel = both.row(y) + 4 * x;
@@ -258,7 +259,7 @@ TEST(RunDifference, SaysTheDistanceAndWhoseItIs) {
     b.motion.balls[1].append(piece);
     SecondRun second = second_of(b);
     second.ended_s = 8;
-    const RunDifference plate(a.scene, a.motion, second, kWidth, kHeight, {}, {});
+    const RunDifference plate(a.scene, a.motion, second, kSecondRunWidth, kSecondRunHeight, {}, {});
     EXPECT_EQ("Farthest apart: 0 mm", plate.distance_line(0));
     EXPECT_EQ("Farthest apart: ball1, 10.0 cm", plate.distance_line(1));
     EXPECT_EQ("Farthest apart: ball1, 90.0 cm (the other ended at 8 s)", plate.distance_line(9));
@@ -270,16 +271,20 @@ TEST(RunDifference, SaysTheDistanceAndWhoseItIs) {
     second.differences.resize(9);
     EXPECT_EQ("one", run_caption(second, false));
     // Inside the picture, and off what is taken.
-    const PixelRect corner = PixelRect::at(0, kHeight - 60, 100, 60);
-    const RunDifference elsewhere(a.scene, a.motion, second, kWidth, kHeight, {{corner}, {}}, {});
+    const PixelRect corner = PixelRect::at(0, kSecondRunHeight - 60, 100, 60);
+    const RunDifference elsewhere(a.scene, a.motion, second, kSecondRunWidth, kSecondRunHeight,
+                                  {{corner}, {}}, {});
     EXPECT_FALSE(elsewhere.rect().overlaps(corner));
     // Of free corners, one where balls do not come.
-    const RunDifference free(a.scene, a.motion, second, kWidth, kHeight,
-                             {{}, {{20, kHeight - 20}, {kWidth - 20, kHeight - 20}, {20, 20}}}, {});
+    const RunDifference free(
+        a.scene, a.motion, second, kSecondRunWidth, kSecondRunHeight,
+        {{},
+         {{20, kSecondRunHeight - 20}, {kSecondRunWidth - 20, kSecondRunHeight - 20}, {20, 20}}},
+        {});
     EXPECT_GT(free.rect().left, 10);
-    EXPECT_LT(free.rect().top, kHeight / 2);
+    EXPECT_LT(free.rect().top, kSecondRunHeight / 2);
     EXPECT_GE(elsewhere.rect().left, 0);
-    EXPECT_LE(elsewhere.rect().right, kWidth);
+    EXPECT_LE(elsewhere.rect().right, kSecondRunWidth);
 }
 
 }  // namespace

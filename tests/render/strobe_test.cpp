@@ -9,8 +9,8 @@ namespace {
 
 using testing::HandMadeScene;
 
-constexpr int kWidth = 320, kHeight = 180;
-const Color kRed{0.8, 0.05, 0.05}, kBlue{0.05, 0.1, 0.8};
+constexpr int kStrobeWidth = 320, kStrobeHeight = 180;
+const Color kStrobeRed{0.8, 0.05, 0.05}, kStrobeBlue{0.05, 0.1, 0.8};
 
 Image painted(Painter& painter, const std::vector<double>& instants) {
     Image image;
@@ -27,7 +27,7 @@ TEST(Strobe, OneInstantIsItsFrame) {
     scene.camera({0, -4, 0.5}, {0, 0, 0.5});
     scene.surface(PlaneShape{});
     scene.ball({-1, 0, 0.5}, 0.2, 0, {0, 3, 0}, {1, 0, 0});
-    Painter painter(scene.scene, scene.motion, {kWidth, kHeight});
+    Painter painter(scene.scene, scene.motion, {kStrobeWidth, kStrobeHeight});
     Image frame;
     painter.paint(0.7, frame);
     EXPECT_EQ(frame, painted(painter, {0.7}));
@@ -37,16 +37,17 @@ TEST(Strobe, OneInstantIsItsFrame) {
 TEST(Strobe, InstantsApartAreTheirFramesSideBySide) {
     HandMadeScene scene;
     scene.camera({0, -4, 0}, {0, 0, 0});
-    scene.ball({-1, 0, 0}, 0.2, scene.look(LookStyle::kStriped, kRed, kBlue), {0, 5, 2}, {1, 0, 0});
-    Painter painter(scene.scene, scene.motion, {kWidth, kHeight});
+    scene.ball({-1, 0, 0}, 0.2, scene.look(LookStyle::kStriped, kStrobeRed, kStrobeBlue), {0, 5, 2},
+               {1, 0, 0});
+    Painter painter(scene.scene, scene.motion, {kStrobeWidth, kStrobeHeight});
     const std::vector<double> instants = {0, 1, 2};
     const Image strobe = painted(painter, instants), empty = painted(painter, {10});
     std::vector<Image> frames;
     for (const double t : instants) frames.push_back(painted(painter, {t}));
     std::vector<int> seen(frames.size());
     int wrong = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kStrobeHeight; ++y) {
+        for (int x = 0; x < kStrobeWidth; ++x) {
             const Image* expected = &empty;
             for (std::size_t k = 0; k < frames.size(); ++k) {
                 if (same_pixel(frames[k], empty, x, y)) continue;
@@ -64,9 +65,10 @@ TEST(Strobe, InstantsApartAreTheirFramesSideBySide) {
 std::pair<Image, Image> along_the_view(double velocity, double nearer_instant) {
     HandMadeScene scene;
     scene.camera({0, -6, 0}, {0, 0, 0});
-    scene.ball({0, -0.5 * velocity, 0}, 0.3, scene.look(LookStyle::kStriped, kRed, kBlue),
-               {0, 2, 0}, {0, velocity, 0});
-    Painter painter(scene.scene, scene.motion, {kWidth, kHeight});
+    scene.ball({0, -0.5 * velocity, 0}, 0.3,
+               scene.look(LookStyle::kStriped, kStrobeRed, kStrobeBlue), {0, 2, 0},
+               {0, velocity, 0});
+    Painter painter(scene.scene, scene.motion, {kStrobeWidth, kStrobeHeight});
     return {painted(painter, {0, 1}), painted(painter, {nearer_instant})};
 }
 
@@ -75,8 +77,8 @@ TEST(Strobe, NearerInstantsAreInFront) {
     for (const double velocity : {-1.5, 1.5}) {
         const auto [strobe, nearer] = along_the_view(velocity, velocity > 0 ? 0 : 1);
         int compared = 0, wrong = 0;
-        for (int y = kHeight / 2 - 10; y <= kHeight / 2 + 10; ++y) {
-            for (int x = kWidth / 2 - 10; x <= kWidth / 2 + 10; ++x) {
+        for (int y = kStrobeHeight / 2 - 10; y <= kStrobeHeight / 2 + 10; ++y) {
+            for (int x = kStrobeWidth / 2 - 10; x <= kStrobeWidth / 2 + 10; ++x) {
                 ++compared;
                 wrong += same_pixel(strobe, nearer, x, y) ? 0 : 1;
             }
@@ -89,11 +91,11 @@ TEST(Strobe, NearerInstantsAreInFront) {
 TEST(Strobe, AnotherBallInFrontStaysInFront) {
     HandMadeScene scene;
     scene.camera({0, -5, 0}, {0, 0, 0});
-    scene.ball({0, -1, 0}, 0.3, scene.look(LookStyle::kPlain, kBlue));
-    scene.ball({-1, 1, 0}, 0.3, scene.look(LookStyle::kPlain, kRed), {0, 0, 0}, {1, 0, 0});
-    Painter painter(scene.scene, scene.motion, {kWidth, kHeight});
+    scene.ball({0, -1, 0}, 0.3, scene.look(LookStyle::kPlain, kStrobeBlue));
+    scene.ball({-1, 1, 0}, 0.3, scene.look(LookStyle::kPlain, kStrobeRed), {0, 0, 0}, {1, 0, 0});
+    Painter painter(scene.scene, scene.motion, {kStrobeWidth, kStrobeHeight});
     const Image strobe = painted(painter, {0, 0.5, 1, 1.5, 2});
-    const std::uint8_t* middle = strobe.row(kHeight / 2) + 4 * (kWidth / 2);
+    const std::uint8_t* middle = strobe.row(kStrobeHeight / 2) + 4 * (kStrobeWidth / 2);
     EXPECT_GT(int{middle[0]}, int{middle[2]} + 40) << "not blue";
     EXPECT_NE(strobe, painted(painter, {2}));
 }
@@ -104,7 +106,7 @@ TEST(Strobe, ShadowsAreThereOncePerPlace) {
     scene.camera({0, -5, 2}, {0, 0, 0.3});
     scene.surface(PlaneShape{}, scene.look(LookStyle::kPlain, {0.9, 0.9, 0.9}));
     scene.ball({-1.5, 0, 0.6}, 0.2, 0, {0, 0, 0}, {1, 0, 0});
-    Painter painter(scene.scene, scene.motion, {kWidth, kHeight});
+    Painter painter(scene.scene, scene.motion, {kStrobeWidth, kStrobeHeight});
     const auto light = [](const Image& image) {
         double sum = 0;
         for (std::size_t i = 0; i < image.bgra.size(); i += 4) sum += image.bgra[i + 1];
@@ -121,7 +123,7 @@ TEST(Strobe, ShadowsAreThereOncePerPlace) {
     still.camera({0, -5, 2}, {0, 0, 0.3});
     still.surface(PlaneShape{});
     still.ball({0, 0, 0.2}, 0.2);
-    Painter resting(still.scene, still.motion, {kWidth, kHeight});
+    Painter resting(still.scene, still.motion, {kStrobeWidth, kStrobeHeight});
     EXPECT_EQ(painted(resting, {3}), painted(resting, {0, 1, 2, 3}));
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HandMadeScene;
 
-constexpr int kWidth = 200, kHeight = 112;
+constexpr int kQualityWidth = 200, kQualityHeight = 112;
 
 struct Pattern {
     const char* name;
@@ -46,16 +46,17 @@ TEST_P(SurfaceQuality, FloorMatchesSixtyFourSamplesFromNearToTheHorizon) {
     HandMadeScene scene;
     scene.camera({0.4, -3, 0.9}, {0.1, 2, 0.2}, 40);
     scene.surface(PlaneShape{}, look_of(scene, GetParam()));
-    const Image image = scene.paint(kWidth, kHeight);
+    const Image image = scene.paint(kQualityWidth, kQualityHeight);
     const Image plain = [] {
         HandMadeScene other;
         other.camera({0.4, -3, 0.9}, {0.1, 2, 0.2}, 40);
         other.surface(PlaneShape{});
-        return other.paint(kWidth, kHeight);
+        return other.paint(kQualityWidth, kQualityHeight);
     }();
     ASSERT_GT(compare_images(image, plain).differing_fraction(), 0.3);
-    testing::expect_good(testing::edge_errors(image, testing::reference_of(scene, kWidth, kHeight)),
-                         GetParam().name);
+    testing::expect_good(
+        testing::edge_errors(image, testing::reference_of(scene, kQualityWidth, kQualityHeight)),
+        GetParam().name);
 }
 
 TEST_P(SurfaceQuality, BoxMatchesSixtyFourSamples) {
@@ -64,9 +65,10 @@ TEST_P(SurfaceQuality, BoxMatchesSixtyFourSamples) {
     scene.surface(PlaneShape{}, scene.look(LookStyle::kPlain, {0.8, 0.8, 0.8}));
     const Quat turned(Eigen::AngleAxisd(0.5, Vec3::UnitZ()));
     scene.surface(BoxShape{{0, 0.2, 0.25}, {1.2, 0.8, 0.5}, turned}, look_of(scene, GetParam()));
-    testing::expect_good(testing::edge_errors(scene.paint(kWidth, kHeight),
-                                              testing::reference_of(scene, kWidth, kHeight)),
-                         GetParam().name);
+    testing::expect_good(
+        testing::edge_errors(scene.paint(kQualityWidth, kQualityHeight),
+                             testing::reference_of(scene, kQualityWidth, kQualityHeight)),
+        GetParam().name);
 }
 
 // Seen flatly, so that most of the light is mirrored: edges and patterns of the image are as good
@@ -79,9 +81,10 @@ TEST_P(SurfaceQuality, MirroredBoxMatchesSixtyFourSamples) {
     scene.surface(PlaneShape{}, floor);
     const Quat turned(Eigen::AngleAxisd(0.5, Vec3(0.2, 0, 1).normalized()));
     scene.surface(BoxShape{{0, 0.2, 0.5}, {1.0, 0.7, 0.4}, turned}, look_of(scene, GetParam()));
-    testing::expect_good(testing::edge_errors(scene.paint(kWidth, kHeight),
-                                              testing::reference_of(scene, kWidth, kHeight)),
-                         std::string("mirrored ") + GetParam().name);
+    testing::expect_good(
+        testing::edge_errors(scene.paint(kQualityWidth, kQualityHeight),
+                             testing::reference_of(scene, kQualityWidth, kQualityHeight)),
+        std::string("mirrored ") + GetParam().name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Patterns, SurfaceQuality, ::testing::ValuesIn(kPatterns), pattern_name);

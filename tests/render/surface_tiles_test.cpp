@@ -21,7 +21,7 @@ namespace {
 
 using testing::HandMadeScene;
 
-constexpr int kWidth = 480, kHeight = 270;
+constexpr int kSurfaceTilesWidth = 480, kSurfaceTilesHeight = 270;
 
 const Quat kTilted(Eigen::AngleAxisd(0.5, Vec3(0.3, 0.2, 1).normalized()));
 
@@ -88,19 +88,19 @@ HandMadeScene from_the_side() {
 
 /// One picture and everything that goes with it.
 struct Drawn {
-    Image color{kWidth, kHeight};
+    Image color{kSurfaceTilesWidth, kSurfaceTilesHeight};
     std::vector<std::uint32_t> g_buffer =
-        std::vector<std::uint32_t>(std::size_t{4} * kWidth * kHeight);
+        std::vector<std::uint32_t>(std::size_t{4} * kSurfaceTilesWidth * kSurfaceTilesHeight);
 };
 
 class Studio {
   public:
     Studio(const HandMadeScene& made, bool transparent)
-        : view_(*made.scene.camera, kWidth, kHeight),
+        : view_(*made.scene.camera, kSurfaceTilesWidth, kSurfaceTilesHeight),
           lights_(choose_lights(view_)),
           table_(make_surface_table(made.scene, view_)),
           kind_{table_.can_occlude(), table_.reflection, transparent},
-          picture_(contexts_.main.gl(), kWidth, kHeight, kind_) {
+          picture_(contexts_.main.gl(), kSurfaceTilesWidth, kSurfaceTilesHeight, kind_) {
         scale_.ao_reach_m = 0.24;
         contexts_.main.gl().Disable(GL_DITHER);
         contexts_.main.gl().Enable(GL_FRAMEBUFFER_SRGB);
@@ -131,11 +131,12 @@ class Studio {
         const Gl& gl = contexts_.main.gl();
         Drawn drawn;
         gl.BindFramebuffer(GL_READ_FRAMEBUFFER, picture_.color_framebuffer().name());
-        gl.ReadPixels(0, 0, kWidth, kHeight, GL_BGRA, GL_UNSIGNED_BYTE, drawn.color.bgra.data());
+        gl.ReadPixels(0, 0, kSurfaceTilesWidth, kSurfaceTilesHeight, GL_BGRA, GL_UNSIGNED_BYTE,
+                      drawn.color.bgra.data());
         const GlFramebuffer g_buffer = make_framebuffer(gl, "reading", {&picture_.g_buffer()});
         gl.BindFramebuffer(GL_READ_FRAMEBUFFER, g_buffer.name());
-        gl.ReadPixels(0, 0, kWidth, kHeight, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                      drawn.g_buffer.data());
+        gl.ReadPixels(0, 0, kSurfaceTilesWidth, kSurfaceTilesHeight, GL_RGBA_INTEGER,
+                      GL_UNSIGNED_INT, drawn.g_buffer.data());
         gl.check("reading a test's picture");
         return drawn;
     }
@@ -206,7 +207,7 @@ TEST(SurfaceTiles, PlanesAreListedWhereTheyAreSeen) {
             visits +=
                 double(rect[2] - rect[0]) * double(rect[3] - rect[1]) * double(rect[13] - rect[12]);
         }
-        const double each = visits / (double(kWidth) * kHeight);
+        const double each = visits / (double(kSurfaceTilesWidth) * kSurfaceTilesHeight);
         fmt::print("{} values differ, by at most {} of 255; {:.1f} of 300 planes looked at\n",
                    differing, worst, each);
         EXPECT_LE(worst, 2);
@@ -217,13 +218,15 @@ TEST(SurfaceTiles, PlanesAreListedWhereTheyAreSeen) {
 TEST(SurfaceTiles, CoverThePictureOnce) {
     for (const Case& made : cases()) {
         const SurfaceTiles tiles = Studio(made.scene, made.transparent).sorted();
-        std::vector<int> covered(std::size_t{kWidth} * kHeight);
+        std::vector<int> covered(std::size_t{kSurfaceTilesWidth} * kSurfaceTilesHeight);
         for (std::size_t i = 0; i < tiles.rectangles.size(); i += SurfaceTiles::kRectangleFloats)
             for (float y = tiles.rectangles[i + 1]; y < tiles.rectangles[i + 3]; ++y)
                 for (float x = tiles.rectangles[i]; x < tiles.rectangles[i + 2]; ++x)
-                    ++covered.at(static_cast<std::size_t>(y) * kWidth +
+                    ++covered.at(static_cast<std::size_t>(y) * kSurfaceTilesWidth +
                                  static_cast<std::size_t>(x));
-        EXPECT_EQ(std::count(covered.begin(), covered.end(), 1), kWidth * kHeight) << made.name;
+        EXPECT_EQ(std::count(covered.begin(), covered.end(), 1),
+                  kSurfaceTilesWidth * kSurfaceTilesHeight)
+            << made.name;
     }
 }
 
@@ -276,18 +279,18 @@ TEST(BackgroundDrawing, PartsOfOnePlaneAreThoseOfTheWholePicture) {
         EXPECT_EQ(whole.color.bgra, parts.color.bgra);
         EXPECT_EQ(whole.g_buffer, parts.g_buffer);
         forget();
-        TileMask detailed(kWidth, kHeight, ScreenTiles::kTilePx);
-        for (int y = 0; y < kHeight; y += ScreenTiles::kTilePx)
-            for (int x = y % 32; x < kWidth; x += 32)
+        TileMask detailed(kSurfaceTilesWidth, kSurfaceTilesHeight, ScreenTiles::kTilePx);
+        for (int y = 0; y < kSurfaceTilesHeight; y += ScreenTiles::kTilePx)
+            for (int x = y % 32; x < kSurfaceTilesWidth; x += 32)
                 detailed.add_tile(x / ScreenTiles::kTilePx, y / ScreenTiles::kTilePx);
         const Drawn some = studio.draw(tiles, BackgroundPrograms::kEachSetOfBodies, &detailed);
         EXPECT_EQ(whole.color.bgra, some.color.bgra);
-        for (int y = 0; y < kHeight; ++y)
-            for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kSurfaceTilesHeight; ++y)
+            for (int x = 0; x < kSurfaceTilesWidth; ++x) {
                 if (!detailed.has_tile(x / ScreenTiles::kTilePx, y / ScreenTiles::kTilePx))
                     continue;
-                const std::size_t at =
-                    4 * (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x));
+                const std::size_t at = 4 * (static_cast<std::size_t>(y) * kSurfaceTilesWidth +
+                                            static_cast<std::size_t>(x));
                 ASSERT_TRUE(
                     std::equal(&whole.g_buffer[at], &whole.g_buffer[at] + 4, &some.g_buffer[at]))
                     << x << ", " << y;

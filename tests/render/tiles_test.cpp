@@ -15,12 +15,12 @@
 namespace carom {
 namespace {
 
-constexpr int kWidth = 200, kHeight = 120;
+constexpr int kTilesWidth = 200, kTilesHeight = 120;
 
 View level_view(bool orthographic = false) {
     Camera camera = samples::pinhole(Vec3(0, -6, 1), Vec3(0, 0, 1), 40);
     if (orthographic) camera.orthographic_m = 4;
-    return View(camera, kWidth, kHeight);
+    return View(camera, kTilesWidth, kTilesHeight);
 }
 
 bool holds(const std::vector<ScreenTiles::Span>& spans, const Vec2& px) {
@@ -61,7 +61,8 @@ TEST(ScreenTiles, HoldEveryPointOfAHull) {
                 point /= total;
                 if (!orthographic && point.z() < 1e-3) continue;
                 const Vec2 px = view_pixel(view, point);
-                if (px.x() < 0 || px.y() < 0 || px.x() >= kWidth || px.y() >= kHeight) continue;
+                if (px.x() < 0 || px.y() < 0 || px.x() >= kTilesWidth || px.y() >= kTilesHeight)
+                    continue;
                 ++seen;
                 ASSERT_TRUE(holds(spans, px)) << turn;
                 ASSERT_TRUE(holds(within, px)) << turn;

@@ -24,7 +24,7 @@ Sample crossing(double seconds) {
     return sample;
 }
 
-class TrailOf : public testing::TestWithParam<double> {};
+class TrailOf : public ::testing::TestWithParam<double> {};
 
 TEST_P(TrailOf, IsTheSameWhateverWasDrawnBefore) {
     const Sample sample = crossing(GetParam());
@@ -66,7 +66,7 @@ TEST_P(TrailOf, TellsWhatChanged) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seconds, TrailOf,
-                         testing::Values(std::numeric_limits<double>::infinity(), 0.6));
+                         ::testing::Values(std::numeric_limits<double>::infinity(), 0.6));
 
 TEST(Trail, PassesThroughTheCentresAndStaysThere) {
     const Sample sample = crossing(std::numeric_limits<double>::infinity());

@@ -13,7 +13,7 @@ using testing::encoded_of;
 using testing::HandMadeScene;
 using testing::linear_of;
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kTransparentWidth = 320, kTransparentHeight = 180;
 
 HandMadeScene ball_over_plane(Background background) {
     HandMadeScene made;
@@ -42,11 +42,13 @@ TEST(AlphaEncoding, IsWhatLightWouldShowOverWhiteAndBlack) {
 }
 
 TEST(Transparent, NothingButTheBallAndItsShadow) {
-    const Image clear = ball_over_plane(Background::kTransparent).paint(kWidth, kHeight);
-    const Image sky = ball_over_plane(Background::kSky).paint(kWidth, kHeight);
+    const Image clear =
+        ball_over_plane(Background::kTransparent).paint(kTransparentWidth, kTransparentHeight);
+    const Image sky =
+        ball_over_plane(Background::kSky).paint(kTransparentWidth, kTransparentHeight);
     int shadow = 0, ball = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kTransparentHeight; ++y) {
+        for (int x = 0; x < kTransparentWidth; ++x) {
             const std::uint8_t* p = clear.row(y) + 4 * x;
             for (int c = 0; c < 3; ++c) ASSERT_LE(p[c], p[3]) << "not premultiplied";
             EXPECT_EQ(255, sky.row(y)[4 * x + 3]);
@@ -60,24 +62,26 @@ TEST(Transparent, NothingButTheBallAndItsShadow) {
     fmt::print("{} pixels of the ball, {} of its shadow\n", ball, shadow);
     EXPECT_GT(ball, 350);
     EXPECT_GT(shadow, 100);
-    for (const int x : {0, kWidth - 1})
-        for (const int y : {0, kHeight - 1}) EXPECT_EQ(0, clear.row(y)[4 * x + 3]);
+    for (const int x : {0, kTransparentWidth - 1})
+        for (const int y : {0, kTransparentHeight - 1}) EXPECT_EQ(0, clear.row(y)[4 * x + 3]);
 }
 
 // Laid over white as viewers do it, the shadow is as dark as it is on a white plane in light.
 TEST(Transparent, TheShadowIsThatOfTheScene) {
-    const Image clear = ball_over_plane(Background::kTransparent).paint(kWidth, kHeight);
-    const Image sky = ball_over_plane(Background::kSky).paint(kWidth, kHeight);
+    const Image clear =
+        ball_over_plane(Background::kTransparent).paint(kTransparentWidth, kTransparentHeight);
+    const Image sky =
+        ball_over_plane(Background::kSky).paint(kTransparentWidth, kTransparentHeight);
     HandMadeScene gone = ball_over_plane(Background::kSky);
     gone.ball({0, 0, 0.35}, 0.2);
     gone.scene.balls.clear();
     gone.motion.balls.clear();
     gone.motion.ball_names.clear();
-    const Image empty = gone.paint(kWidth, kHeight);
+    const Image empty = gone.paint(kTransparentWidth, kTransparentHeight);
     double largest = 0;
     int compared = 0;
-    for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kTransparentHeight; ++y) {
+        for (int x = 0; x < kTransparentWidth; ++x) {
             const std::uint8_t* p = clear.row(y) + 4 * x;
             if (p[3] < 10 || p[0] + p[1] + p[2] > 0) continue;
             // What is left of the light: over white in the one, beside the empty floor in the
@@ -98,8 +102,8 @@ TEST(Transparent, TheShadowIsThatOfTheScene) {
 TEST(Transparent, BodiesAreDrawnAndTheirShadowsCaught) {
     HandMadeScene made = ball_over_plane(Background::kTransparent);
     made.surface(BoxShape{{0.9, 0, 0.2}, {0.4, 0.4, 0.4}, Quat::Identity()});
-    const Image picture = made.paint(kWidth, kHeight);
-    const View view(*made.scene.camera, kWidth, kHeight);
+    const Image picture = made.paint(kTransparentWidth, kTransparentHeight);
+    const View view(*made.scene.camera, kTransparentWidth, kTransparentHeight);
     const View::Projected box = view.project({0.9, -0.2, 0.2});
     EXPECT_EQ(255, picture.row(static_cast<int>(box.y_px))[4 * static_cast<int>(box.x_px) + 3]);
     const View::Projected beside = view.project({1.2, 0.05, 0});
@@ -118,7 +122,7 @@ TEST(Transparent, WithBlurAndOverlay) {
     made.motion.balls[0].append(piece);
     made.scene.film.shutter_deg = 360;
     made.scene.overlay.clock = ClockOptions{};
-    const Image picture = made.paint(kWidth, kHeight, 0.02);
+    const Image picture = made.paint(kTransparentWidth, kTransparentHeight, 0.02);
     EXPECT_GT(picture.row(12)[4 * 20 + 3], 150) << "the clock's plate";
     int partly = 0;
     for (std::size_t i = 3; i < picture.bgra.size(); i += 4)

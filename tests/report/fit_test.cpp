@@ -21,7 +21,7 @@
 namespace carom {
 namespace {
 
-constexpr double kGravity = 9.81;
+constexpr double kFitGravity = 9.81;
 
 Measurements drops_of(const std::vector<std::pair<double, double>>& heights) {
     Measurements measured;
@@ -158,7 +158,7 @@ TEST(FitRoundTrip, SimulatedDropsGiveTheirCoefficientBack) {
         ball.material = 1;
         ball.position = Vec3(0, 0, 1.8 + ball.radius);
         scene.balls.push_back(ball);
-        const double fall = std::sqrt(2 * 1.8 / kGravity);
+        const double fall = std::sqrt(2 * 1.8 / kFitGravity);
         scene.simulation.duration = fall * (1 + 4 * restitution);  // a bit beyond three impacts
         const Motion motion = simulate(scene).motion;
         ASSERT_FALSE(motion.peaks.front().empty());
@@ -311,7 +311,7 @@ TEST(Quantities, UnitsAreConverted) {
 FallInAir air_of(double radius, double mass, double drag) {
     Air air;
     air.buoyancy = false;
-    return {air, radius, mass, drag, kGravity};
+    return {air, radius, mass, drag, kFitGravity};
 }
 
 /// The coefficients that give the presets' own first rebounds in air, six digits of an independent
@@ -352,7 +352,7 @@ TEST(FitInAir, RoundTrip) {
         intervals.push_back(motion.events[i].time - motion.events[i - 1].time);
     const Ball& ball = read.scene->balls[0];
     FitOptions options;
-    options.air = FallInAir(*read.scene->air, ball.radius, ball.mass, 0.45, kGravity);
+    options.air = FallInAir(*read.scene->air, ball.radius, ball.mass, 0.45, kFitGravity);
     const Measurements times = intervals_of(intervals);
     const Measurements heights = drops_of({{0.305, motion.peaks[0][0].height},
                                            {motion.peaks[0][0].height, motion.peaks[0][1].height}});
@@ -387,8 +387,8 @@ TEST(FitInAir, ConfidenceIsWhatItSays) {
 TEST(FitInAir, MistakesAreNamed) {
     Air thick;
     thick.density = 2000;
-    EXPECT_TRUE(
-        holds(complaint([&] { FallInAir(thick, 0.1, 1, 0.5, kGravity); }), "lighter than the air"));
+    EXPECT_TRUE(holds(complaint([&] { FallInAir(thick, 0.1, 1, 0.5, kFitGravity); }),
+                      "lighter than the air"));
     FitOptions options;
     options.air = air_of(0.1, 0.1, 0.5);
     EXPECT_TRUE(holds(complaint([&] {

@@ -12,12 +12,12 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kR = 0.5, kBall = 0.1;
-constexpr double kLength = kR - kBall;  ///< of the pendulum that a ball inside is, m
+constexpr double kBowlR = 0.5, kBowlBall = 0.1;
+constexpr double kBowlLength = kBowlR - kBowlBall;  ///< of the pendulum that a ball inside is, m
 
 Scene with_bowl(double depth, double restitution, double friction) {
     Scene scene = exact_scene(restitution, friction, kGravity);
-    add_surface(scene, "bowl", BowlShape{Vec3::Zero(), kR, Vec3::UnitZ(), depth});
+    add_surface(scene, "bowl", BowlShape{Vec3::Zero(), kBowlR, Vec3::UnitZ(), depth});
     return scene;
 }
 
@@ -26,12 +26,12 @@ Scene with_bowl(double depth, double restitution, double friction) {
 TEST(Bowl, ABallSwingsAsAPendulum) {
     for (const bool rolls : {false, true})
         for (const double a : {0.1, 0.8, 1.5}) {
-            Scene scene = with_bowl(kR, 0, rolls ? 1e12 : 0);
-            const Vec3 start(kLength * std::sin(a), 0, -kLength * std::cos(a));
+            Scene scene = with_bowl(kBowlR, 0, rolls ? 1e12 : 0);
+            const Vec3 start(kBowlLength * std::sin(a), 0, -kBowlLength * std::cos(a));
             add_ball(scene, start);
             const double slower = rolls ? 1 + kSolid : 1;
-            const double half =
-                2 * std::sqrt(slower * kLength / kGravity) * std::comp_ellint_1(std::sin(a / 2));
+            const double half = 2 * std::sqrt(slower * kBowlLength / kGravity) *
+                                std::comp_ellint_1(std::sin(a / 2));
             const SimulationResult r = run(scene, 4 * half);
             double worst = 0;
             for (int i = 1; i <= 4; ++i) {
@@ -50,8 +50,8 @@ TEST(Bowl, ABallSwingsAsAPendulum) {
 /// Round at one height: v^2 = g L sin a tan a.
 TEST(Bowl, ASmoothBallCirclesAtOneHeight) {
     for (const double a : {0.3, 1.2}) {
-        Scene scene = with_bowl(kR, 0.5, 0);
-        const double away = kLength * std::sin(a), down = -kLength * std::cos(a);
+        Scene scene = with_bowl(kBowlR, 0.5, 0);
+        const double away = kBowlLength * std::sin(a), down = -kBowlLength * std::cos(a);
         const double v = std::sqrt(kGravity * away * std::tan(a)), turn = v / away;
         add_ball(scene, Vec3(away, 0, down), Vec3(0, v, 0));
         const SimulationResult r = run(scene, 3);
@@ -82,41 +82,43 @@ TEST(Bowl, BallsAreReflectedFromAllItsSides) {
                   1e-13);
     };
     const Vec3 out(0.6, 0, -0.8), down(0, 0, -speed);
-    expect(kR, kLength * out, -out, speed * Vec3(0.6, 0, -0.8));                      // inside
-    expect(kR, (kR + kBall) * out, out, speed * Vec3(-0.8, 0, 0.6));                  // outside
-    expect(kR, Vec3(kR, 0, 0) + kBall * Vec3(0.6, 0, 0.8), Vec3(0.6, 0, 0.8), down);  // the rim
-    expect(kR, Vec3(kR, 0, 0) + kBall * Vec3(-0.6, 0, 0.8), Vec3(-0.6, 0, 0.8), down);
+    expect(kBowlR, kBowlLength * out, -out, speed * Vec3(0.6, 0, -0.8));          // inside
+    expect(kBowlR, (kBowlR + kBowlBall) * out, out, speed * Vec3(-0.8, 0, 0.6));  // outside
+    expect(kBowlR, Vec3(kBowlR, 0, 0) + kBowlBall * Vec3(0.6, 0, 0.8), Vec3(0.6, 0, 0.8),
+           down);  // the rim
+    expect(kBowlR, Vec3(kBowlR, 0, 0) + kBowlBall * Vec3(-0.6, 0, 0.8), Vec3(-0.6, 0, 0.8), down);
     // A rim at 3/5 of the radius below the middle: its circle has 4/5 of it.
-    expect(0.4 * kR, Vec3(0.8 * kR, 0, -0.6 * kR) + kBall * Vec3::UnitZ(), Vec3::UnitZ(), down);
+    expect(0.4 * kBowlR, Vec3(0.8 * kBowlR, 0, -0.6 * kBowlR) + kBowlBall * Vec3::UnitZ(),
+           Vec3::UnitZ(), down);
 }
 
 /// Out over a rim that slopes: it leaves the wall's end along it, unless the rim holds it.
 TEST(Bowl, AFastBallLeavesOverTheRim) {
     const double a = std::acos(0.6);  // of the rim
-    Scene scene = with_bowl(0.4 * kR, 0, 0);
+    Scene scene = with_bowl(0.4 * kBowlR, 0, 0);
     const double v0 = 4;
-    add_ball(scene, Vec3(0, 0, -kLength), Vec3(v0, 0, 0));
+    add_ball(scene, Vec3(0, 0, -kBowlLength), Vec3(v0, 0, 0));
     const SimulationResult r = run(scene, 1);
     const Event leave = only(r.motion, EventKind::kLeave);
     const BallState s = r.motion.balls[0].at(leave.time);
-    const double v = std::sqrt(v0 * v0 - 2 * kGravity * kLength * (1 - std::cos(a)));
-    EXPECT_LT((s.position - kLength * Vec3(std::sin(a), 0, -std::cos(a))).norm(), kBound);
+    const double v = std::sqrt(v0 * v0 - 2 * kGravity * kBowlLength * (1 - std::cos(a)));
+    EXPECT_LT((s.position - kBowlLength * Vec3(std::sin(a), 0, -std::cos(a))).norm(), kBound);
     EXPECT_LT((s.velocity - v * Vec3(std::cos(a), 0, std::sin(a))).norm(), kBound);
 }
 
 /// Bouncing in a closed sphere without loss.
 TEST(Bowl, NoBallGetsOutOfAClosedSphere) {
-    Scene scene = with_bowl(2 * kR, 1, 0);
+    Scene scene = with_bowl(2 * kBowlR, 1, 0);
     add_ball(scene, Vec3(0.1, 0, 0.05), Vec3(1.3, 0.7, 0.4));
     const auto [drift, farthest] = wandering(scene, [](const Vec3& p) { return p.norm(); });
-    std::printf("energy off by %.2g m^2/s^2, out by %.2g m\n", drift, farthest - kLength);
+    std::printf("energy off by %.2g m^2/s^2, out by %.2g m\n", drift, farthest - kBowlLength);
     EXPECT_LT(drift, 1e-11);
-    EXPECT_LT(farthest, kLength + 1e-12);
+    EXPECT_LT(farthest, kBowlLength + 1e-12);
 }
 
 /// With loss it comes to swing along the wall, and energy never grows.
 TEST(Bowl, ABallThatBouncesInItSettlesOnTheWall) {
-    Scene scene = with_bowl(kR, 0.6, 0.3);
+    Scene scene = with_bowl(kBowlR, 0.6, 0.3);
     add_ball(scene, Vec3(0.15, 0.1, 0.3), Vec3(0.3, -0.6, 0));
     const SimulationResult r = run(scene, 6);
     ASSERT_FALSE(impacts_of(r.motion).empty());
@@ -125,20 +127,21 @@ TEST(Bowl, ABallThatBouncesInItSettlesOnTheWall) {
         const BallState s = r.motion.balls[0].at(0.002 * i);
         rise = std::max(rise, energy(scene, s) - least);
         least = std::min(least, energy(scene, s));
-        deepest = std::max(deepest, -nearest_on(scene.surfaces[0].shape, s.position, kBall).gap);
+        deepest =
+            std::max(deepest, -nearest_on(scene.surfaces[0].shape, s.position, kBowlBall).gap);
     }
     std::printf("energy rises by %.2g m^2/s^2, depth %.2g m\n", rise, deepest);
     EXPECT_LT(rise, 1e-11);
     EXPECT_LT(deepest, 1e-12);
-    EXPECT_NEAR(r.motion.balls[0].at(6).position.norm(), kLength, 1e-12);
+    EXPECT_NEAR(r.motion.balls[0].at(6).position.norm(), kBowlLength, 1e-12);
 }
 
 TEST(Bowl, ABallRestsAtTheBottom) {
-    Scene scene = with_bowl(kR, 0.5, 0.3);
+    Scene scene = with_bowl(kBowlR, 0.5, 0.3);
     add_ball(scene, Vec3(0, 0, 0.4));
     const SimulationResult r = run(scene, 5);
     EXPECT_NEAR(only(r.motion, EventKind::kRest).time, std::sqrt(2 * 0.8 / kGravity) * 3, 1e-9);
-    EXPECT_LT((r.motion.balls[0].at(5).position - Vec3(0, 0, -kLength)).norm(), 1e-14);
+    EXPECT_LT((r.motion.balls[0].at(5).position - Vec3(0, 0, -kBowlLength)).norm(), 1e-14);
 }
 
 /// A ball too large for the opening sits on the rim all around.

@@ -13,19 +13,19 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kRadius = 0.05;
+constexpr double kCollapseRadius = 0.05;
 
 // ---- The rule
 // -------------------------------------------------------------------------------------
 
 TEST(CollapseRule, ManyImpactsInAShortTimeMakeAHeap) {
     CollapseRule rule(1);
-    rule.note(0, kRadius, 1, 0);
+    rule.note(0, kCollapseRadius, 1, 0);
     double v = 1, t = 0;
     for (int i = 0; i < CollapseRule::kImpacts; ++i) {
         EXPECT_FALSE(rule.in_heap(0)) << i;
         v *= 0.9;
-        rule.note(0, kRadius, v, t += 1e-5);
+        rule.note(0, kCollapseRadius, v, t += 1e-5);
     }
     EXPECT_TRUE(rule.in_heap(0));
     rule.leave_heap(0);
@@ -35,13 +35,14 @@ TEST(CollapseRule, ManyImpactsInAShortTimeMakeAHeap) {
 TEST(CollapseRule, ImpactsThatAreFarApartDoNot) {
     CollapseRule rule(1);
     // A radius over 100 of the way between any two, at the first one's speed: 10 are too many.
-    for (int i = 0; i < 1000; ++i) rule.note(0, kRadius, 1 - 1e-4 * i, 0.01 * kRadius * i);
+    for (int i = 0; i < 1000; ++i)
+        rule.note(0, kCollapseRadius, 1 - 1e-4 * i, 0.01 * kCollapseRadius * i);
     EXPECT_FALSE(rule.in_heap(0));
 }
 
 TEST(CollapseRule, AFasterImpactBeginsAnew) {
     CollapseRule rule(1);
-    for (int i = 0; i < 1000; ++i) rule.note(0, kRadius, 1 + 1e-3 * (i / 20), 1e-7 * i);
+    for (int i = 0; i < 1000; ++i) rule.note(0, kCollapseRadius, 1 + 1e-3 * (i / 20), 1e-7 * i);
     EXPECT_FALSE(rule.in_heap(0));
 }
 
@@ -52,7 +53,7 @@ TEST(CollapseRule, AFasterImpactBeginsAnew) {
 Scene gas(int n, double e, double friction, unsigned seed) {
     Scene scene = exact_scene(e, friction, 0);
     use_pair(scene, e, friction);
-    const double apart = 3 * kRadius, side = n * apart;
+    const double apart = 3 * kCollapseRadius, side = n * apart;
     add_plane(scene, Vec3::UnitX(), 0);
     add_plane(scene, -Vec3::UnitX(), -side);
     add_plane(scene, Vec3::UnitY(), 0);
@@ -62,7 +63,7 @@ Scene gas(int n, double e, double friction, unsigned seed) {
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             const double x = speed(random), y = speed(random);
-            add_ball(scene, apart * Vec3(i + 0.5, j + 0.5, 0), Vec3(x, y, 0), kRadius);
+            add_ball(scene, apart * Vec3(i + 0.5, j + 0.5, 0), Vec3(x, y, 0), kCollapseRadius);
         }
     return scene;
 }
@@ -99,7 +100,7 @@ Kept kept(const Scene& scene, const Motion& motion, double friction) {
             for (std::size_t b = 0; b < a; ++b)
                 result.overlap = std::max(
                     result.overlap,
-                    2 * kRadius -
+                    2 * kCollapseRadius -
                         (motion.balls[a].at(t).position - motion.balls[b].at(t).position).norm());
     }
     return result;
@@ -147,7 +148,7 @@ TEST(Collapse, ALineEndsWithOneVelocity) {
         double momentum = 0, mass = 0;
         for (int i = 0; i < 24; ++i) {
             Ball& b = add_ball(scene, Vec3(0.15 * i + 0.001 * (i % 3), 0, 0),
-                               Vec3(2 - 0.1 * i, 0, 0), kRadius);
+                               Vec3(2 - 0.1 * i, 0, 0), kCollapseRadius);
             momentum += b.mass * b.velocity.x();
             mass += b.mass;
         }

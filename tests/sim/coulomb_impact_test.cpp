@@ -12,7 +12,7 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kR = 0.1;
+constexpr double kCoulombR = 0.1;
 
 double energy_of(const std::vector<ImpactBody>& bodies) {
     double sum = 0;
@@ -26,7 +26,7 @@ SolverContact wall_contact(int ball, const Vec3& normal, double restitution, dou
     SolverContact c;
     c.body = ball;
     c.normal = normal.normalized();
-    c.arm = -kR * c.normal;
+    c.arm = -kCoulombR * c.normal;
     c.restitution = restitution;
     c.friction = friction;
     return c;
@@ -42,7 +42,7 @@ TEST(CoulombImpact, ASpinningBallInAGroove) {
                 const double spin = 100;
                 std::vector<ImpactBody> bodies(1);
                 bodies[0].mass = 1;
-                bodies[0].inertia = 0.4 * kR * kR;
+                bodies[0].inertia = 0.4 * kCoulombR * kCoulombR;
                 bodies[0].velocities = {{0, 0, -speed}, {0, spin, 0}};
                 std::vector<SolverContact> contacts = {wall_contact(0, {1, 0, 1}, e, mu),
                                                        wall_contact(0, {-1, 0, 1}, e, mu)};
@@ -55,7 +55,7 @@ TEST(CoulombImpact, ASpinningBallInAGroove) {
                 EXPECT_NEAR(contacts[0].tangential_impulse, mu * small, 1e-12) << mu << " " << e;
                 EXPECT_NEAR(contacts[1].tangential_impulse, mu * large, 1e-12) << mu << " " << e;
                 EXPECT_NEAR(bodies[0].velocities.spin.y(),
-                            spin - mu * (small + large) * kR / bodies[0].inertia, 1e-9);
+                            spin - mu * (small + large) * kCoulombR / bodies[0].inertia, 1e-9);
             }
 }
 
@@ -81,7 +81,7 @@ TEST(CoulombImpact, ConesGripAndEnergyInCorners) {
     for (int trial = 0; trial < 400; ++trial) {
         std::vector<ImpactBody> bodies(1);
         bodies[0].mass = 1;
-        bodies[0].inertia = (trial % 2 == 0 ? kSolid : kShell) * kR * kR;
+        bodies[0].inertia = (trial % 2 == 0 ? kSolid : kShell) * kCoulombR * kCoulombR;
         const double e = share(random), mu = 1.5 * share(random);
         bodies[0].velocities = {{unit(random), unit(random), -3},
                                 Vec3(unit(random), unit(random), unit(random)) * 60};
@@ -117,7 +117,7 @@ TEST(CoulombImpact, ACueBallOntoTwoKeepsMomentumAndSymmetry) {
             std::vector<ImpactBody> bodies(3);
             for (ImpactBody& b : bodies) {
                 b.mass = 1;
-                b.inertia = 0.4 * kR * kR;
+                b.inertia = 0.4 * kCoulombR * kCoulombR;
             }
             bodies[0].velocities = {{1, 0, 0}, {spin, 0, 0}};
             std::vector<SolverContact> contacts;
@@ -126,9 +126,9 @@ TEST(CoulombImpact, ACueBallOntoTwoKeepsMomentumAndSymmetry) {
                 c.body = 0;
                 c.other_body = side > 0 ? 1 : 2;
                 c.normal = -Vec3(std::cos(M_PI / 6), side * std::sin(M_PI / 6), 0);
-                c.arm = -kR * c.normal;
-                c.arm_other = kR * c.normal;
-                bodies[static_cast<std::size_t>(c.other_body)].position = -2 * kR * c.normal;
+                c.arm = -kCoulombR * c.normal;
+                c.arm_other = kCoulombR * c.normal;
+                bodies[static_cast<std::size_t>(c.other_body)].position = -2 * kCoulombR * c.normal;
                 c.restitution = 0.9;
                 c.friction = mu;
                 contacts.push_back(c);
@@ -158,8 +158,8 @@ TEST(CoulombImpact, ACascadeAtOneInstantKeepsItsEnergy) {
             Scene scene = exact_scene(1, 0, 0);
             scene.simulation.duration = 1;
             add_plane(scene, Vec3::UnitX());
-            add_ball(scene, {kR + gap, 0, 0}, Vec3::Zero(), kR).mass = 1;
-            add_ball(scene, {3 * kR + 2 * gap, 0, 0}, {-1, 0, 0}, kR).mass = heavy;
+            add_ball(scene, {kCoulombR + gap, 0, 0}, Vec3::Zero(), kCoulombR).mass = 1;
+            add_ball(scene, {3 * kCoulombR + 2 * gap, 0, 0}, {-1, 0, 0}, kCoulombR).mass = heavy;
             use_pair(scene, 1);
             const Motion motion = simulate(scene).motion;
             const double before = kinetic_energy(scene, motion, 0);

@@ -12,10 +12,10 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kR = 0.4;  ///< of the cylinders that stand upright, their tops at z = 0, m
+constexpr double kCylinderR = 0.4;  ///< of the cylinders that stand upright, their tops at z = 0, m
 constexpr double kBall = 0.1;
 
-const CylinderShape kDrum{Vec3(0, 0, -1), Vec3::Zero(), kR};
+const CylinderShape kDrum{Vec3(0, 0, -1), Vec3::Zero(), kCylinderR};
 
 Scene on_drum(double restitution, double friction) {
     Scene scene = exact_scene(restitution, friction, kGravity);
@@ -44,13 +44,14 @@ TEST(Cylinder, ADroppedBallIsReflectedAboutTheNormal) {
         expect_reflection(scene, {0.2, 0.1, kBall}, Vec3::UnitZ(), e, "the end");
         const double out = 0.06, up = 0.08;  // 3-4-5 with the ball's radius
         const Vec3 outward(0.6, 0.8, 0);
-        expect_reflection(scene, (kR + out) * outward + up * Vec3::UnitZ(),
+        expect_reflection(scene, (kCylinderR + out) * outward + up * Vec3::UnitZ(),
                           0.6 * outward + 0.8 * Vec3::UnitZ(), e, "the rim");
         Scene lying = exact_scene(e, 0, kGravity);
-        add_surface(lying, "roller", CylinderShape{Vec3(-1, 0, 0), Vec3(1, 0, 0), kR});
-        expect_reflection(lying, (kR + kBall) * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8), e,
+        add_surface(lying, "roller", CylinderShape{Vec3(-1, 0, 0), Vec3(1, 0, 0), kCylinderR});
+        expect_reflection(lying, (kCylinderR + kBall) * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8), e,
                           "the shaft");
-        expect_reflection(lying, {1 + 0.06, 0, kR + 0.08}, Vec3(0.6, 0, 0.8), e, "the upright rim");
+        expect_reflection(lying, {1 + 0.06, 0, kCylinderR + 0.08}, Vec3(0.6, 0, 0.8), e,
+                          "the upright rim");
     }
 }
 
@@ -62,8 +63,8 @@ TEST(Cylinder, ABallRollsOverTheRimAndLeaves) {
             Scene scene = on_drum(0, 1e12);
             const Vec3 outward(std::cos(azimuth), std::sin(azimuth), 0);
             const double to_rim = 0.15;
-            add_ball(scene, Vec3(0, 0, kBall) + (kR - to_rim) * outward, v0 * outward).spin =
-                Vec3::UnitZ().cross(v0 * outward) / kBall;
+            add_ball(scene, Vec3(0, 0, kBall) + (kCylinderR - to_rim) * outward, v0 * outward)
+                .spin = Vec3::UnitZ().cross(v0 * outward) / kBall;
             const SimulationResult r = run(scene, to_rim / v0 + 1.2);
             const Event leave = only(r.motion, EventKind::kLeave);
             const double expected =
@@ -82,7 +83,7 @@ TEST(Cylinder, AFastBallFliesOffTheEnd) {
     add_ball(scene, Vec3(0, 0, kBall), Vec3(1.5, 0, 0));  // v^2 > g r
     const SimulationResult r = run(scene, 0.4);
     const Event leave = only(r.motion, EventKind::kLeave);
-    EXPECT_NEAR(leave.time, kR / 1.5, 1e-14);
+    EXPECT_NEAR(leave.time, kCylinderR / 1.5, 1e-14);
     EXPECT_NEAR(leave.normal.z(), 1, 1e-14);
 }
 
@@ -93,7 +94,7 @@ TEST(Cylinder, ASmoothBallKeepsItsMomentAboutTheAxisOnTheRim) {
     for (const double aside : {0.1, 0.3, 0.39}) {
         Scene scene = on_drum(0, 0);
         add_ball(scene, Vec3(0, aside, kBall), Vec3(0.5, 0, 0));
-        const double end = std::sqrt(kR * kR - aside * aside) / 0.5;
+        const double end = std::sqrt(kCylinderR * kCylinderR - aside * aside) / 0.5;
         const SimulationResult r = run(scene, end + 1);
         const Event leave = only(r.motion, EventKind::kLeave);
         ASSERT_GT(leave.time, end + 1e-3);
@@ -131,7 +132,7 @@ TEST(Cylinder, ABallThatRollsObliquelyOverTheRimKeepsItsEnergy) {
     const Vec3 v(0.5, 0, 0);
     add_ball(scene, Vec3(0, 0.25, kBall), v).spin =
         Vec3::UnitZ().cross(v) / kBall + 9 * Vec3::UnitZ();
-    const double end = std::sqrt(kR * kR - 0.25 * 0.25) / 0.5;
+    const double end = std::sqrt(kCylinderR * kCylinderR - 0.25 * 0.25) / 0.5;
     const SimulationResult r = run(scene, end + 1);
     const Event leave = only(r.motion, EventKind::kLeave);
     const Trajectory& ball = r.motion.balls[0];
@@ -153,12 +154,12 @@ TEST(Cylinder, ABallSlidesDownTheShaftOverTheRim) {
     const double slope = 0.1;
     const Vec3 axis(std::cos(slope), 0, -std::sin(slope)), n(std::sin(slope), 0, std::cos(slope));
     Scene scene = exact_scene(0, 0, kGravity);
-    add_surface(scene, "roller", CylinderShape{Vec3::Zero(), 0.5 * axis, kR});
-    add_ball(scene, (kR + kBall) * n + 0.1 * axis);
+    add_surface(scene, "roller", CylinderShape{Vec3::Zero(), 0.5 * axis, kCylinderR});
+    add_ball(scene, (kCylinderR + kBall) * n + 0.1 * axis);
     const double a = kGravity * std::sin(slope), t = std::sqrt(2 * 0.4 / a);
     const SimulationResult r = run(scene, t + 1);
     const BallState end = r.motion.balls[0].at(t);
-    EXPECT_LT((end.position - (kR + kBall) * n - 0.5 * axis).norm(), kBound);
+    EXPECT_LT((end.position - (kCylinderR + kBall) * n - 0.5 * axis).norm(), kBound);
     EXPECT_NEAR(end.velocity.dot(axis), a * t, kBound);
     // v^2 / 2 grows by g r (cos slope - cos).
     const double v2 = a * t * a * t;
@@ -178,7 +179,7 @@ TEST(Cylinder, ABallRestsOnTheEnd) {
 /// Between drum and floor: a ball that leans on both slips nowhere and gains nothing.
 TEST(Cylinder, ABallRollsAlongTheFootOfADrum) {
     Scene scene = exact_scene(1, 0, kGravity);
-    add_surface(scene, "drum", CylinderShape{Vec3(0, 0, 0), Vec3(0, 0, 1), kR});
+    add_surface(scene, "drum", CylinderShape{Vec3(0, 0, 0), Vec3(0, 0, 1), kCylinderR});
     add_plane(scene);
     // Towards the drum at an angle, without loss: off it, and on over the floor.
     add_ball(scene, Vec3(-1, 0.3, kBall), Vec3(2, 0, 0));
@@ -198,7 +199,7 @@ TEST(Cylinder, FixedStepsMeetEndsAndRims) {
     add_surface(scene, "drum", kDrum);
     const double t = std::sqrt(2 * 0.5 / kGravity);
     add_ball(scene, Vec3(0.1, 0, kBall + 0.5));
-    add_ball(scene, Vec3(kR + 0.06, 0, 0.08 + 0.5));
+    add_ball(scene, Vec3(kCylinderR + 0.06, 0, 0.08 + 0.5));
     const SimulationResult r = run(scene, t + 0.1);
     const std::vector<Event> impacts = impacts_of(r.motion);
     ASSERT_EQ(impacts.size(), 2u);

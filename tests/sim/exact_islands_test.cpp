@@ -11,7 +11,7 @@
 namespace carom::testing {
 namespace {
 
-Scene exact_scene(double restitution, double friction) {
+Scene island_scene(double restitution, double friction) {
     Scene scene = scene_of(restitution, friction, kGravity, 0.00025);
     scene.simulation.method = Method::kExact;
     use_pair(scene, restitution, friction);
@@ -44,7 +44,7 @@ double deepest(const Scene& scene, const Motion& motion, double t) {
 }
 
 Scene stack_of(int balls, double friction) {
-    Scene scene = exact_scene(0.5, friction);
+    Scene scene = island_scene(0.5, friction);
     add_plane(scene);
     for (int i = 0; i < balls; ++i) add_ball(scene, Vec3(0, 0, 0.1 + 0.2 * i));
     return scene;
@@ -82,7 +82,7 @@ TEST(ExactIslands, HeavyOnLight) {  // H18
 }
 
 TEST(ExactIslands, DroppedStackComesToRest) {
-    Scene scene = exact_scene(0.5, 0.5);
+    Scene scene = island_scene(0.5, 0.5);
     add_plane(scene);
     for (int i = 0; i < 4; ++i) add_ball(scene, Vec3(0, 0, 0.3 + 0.25 * i));
     const SimulationResult r = run(scene, 10);
@@ -95,7 +95,7 @@ TEST(ExactIslands, DroppedStackComesToRest) {
 
 TEST(ExactIslands, BallStaysInGroove) {  // H11
     for (const double opening : {90.0, 120.0}) {
-        Scene scene = exact_scene(0.5, 0.3);
+        Scene scene = island_scene(0.5, 0.3);
         const double tilt = 90 - opening / 2;
         add_plane(scene, incline(tilt, 0));
         add_plane(scene, incline(tilt, 180));
@@ -117,7 +117,7 @@ TEST(ExactIslands, BallStaysInGroove) {  // H11
 // Rolling down a groove of two planes that falls by 20 degrees: constant acceleration
 // g sin a / (1 + k R^2 / d^2), d the distance of the centre from the line of the contacts.
 TEST(ExactIslands, RollsDownGroove) {
-    Scene scene = exact_scene(0.5, 1.0);
+    Scene scene = island_scene(0.5, 1.0);
     const double a = 20 * M_PI / 180, half = M_PI / 4;
     const Vec3 down(std::cos(a), 0, -std::sin(a)), up(std::sin(a), 0, std::cos(a));
     for (const double side : {-1.0, 1.0})
@@ -133,7 +133,7 @@ TEST(ExactIslands, RollsDownGroove) {
 }
 
 TEST(ExactIslands, RollsAlongWall) {
-    Scene scene = exact_scene(0.5, 0.3);
+    Scene scene = island_scene(0.5, 0.3);
     add_plane(scene);
     add_plane(scene, -Vec3::UnitY(), -0.1);
     add_ball(scene, Vec3(0, 0, 0.1), Vec3(1, 0, 0)).spin = Vec3(0, 10, 0);
@@ -146,7 +146,7 @@ TEST(ExactIslands, RollsAlongWall) {
 
 // Galilean cannon of three balls, 6:2:1: the top one leaves at 3 v, the others are left at rest.
 TEST(ExactIslands, CannonLeavesStack) {  // H8
-    Scene scene = exact_scene(1, 0);
+    Scene scene = island_scene(1, 0);
     add_plane(scene);
     const double h = 1;
     for (int i = 0; i < 3; ++i) add_ball(scene, Vec3(0, 0, 0.1 + 0.2 * i + h));
@@ -163,7 +163,7 @@ TEST(ExactIslands, CannonLeavesStack) {  // H8
 }
 
 TEST(ExactIslands, ComesToRestInCorner) {
-    Scene scene = exact_scene(0.5, 0.4);
+    Scene scene = island_scene(0.5, 0.4);
     add_plane(scene, Vec3(0.1, 0.1, 1));
     add_plane(scene, -Vec3::UnitX(), -1);
     add_plane(scene, -Vec3::UnitY(), -1);
@@ -177,7 +177,7 @@ TEST(ExactIslands, ComesToRestInCorner) {
 }
 
 Scene poured(int count, double friction) {
-    Scene scene = exact_scene(0.5, friction);
+    Scene scene = island_scene(0.5, friction);
     add_plane(scene);
     for (const double side : {-1.0, 1.0}) {
         add_plane(scene, side * Vec3::UnitX(), -0.25);
@@ -255,7 +255,7 @@ TEST(ExactIslands, StepsInACornerAddNoEnergy) {
     std::int64_t steps = 0;
     double worst = 0;
     for (int k = 0; k < 12; k += 2) {
-        Scene scene = exact_scene(0.1 * (k % 4), 0.2 * (k % 5));
+        Scene scene = island_scene(0.1 * (k % 4), 0.2 * (k % 5));
         use_pair(scene, 0.3, 0.4);
         scene.simulation.gravity = Vec3(6, 4 + 0.3 * k, -7);
         scene.simulation.duration = 1.5;

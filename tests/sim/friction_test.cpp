@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double kRadius = 0.1;
+constexpr double kFrictionRadius = 0.1;
 
 Vec3 along(double azimuth_deg) {
     const double a = azimuth_deg * M_PI / 180;
@@ -25,7 +25,7 @@ BallState bounce_with_friction(double mu, double k, double azimuth_deg, Solver s
     add_plane(scene);
     Vec3 velocity = 3 * along(azimuth_deg);
     velocity.z() = -5;
-    add_ball(scene, {0, 0, kRadius + 0.5}, velocity).inertia_factor = k;
+    add_ball(scene, {0, 0, kFrictionRadius + 0.5}, velocity).inertia_factor = k;
     const auto result = run(scene, 0.15);
     EXPECT_EQ(result.report.impacts, 1);
     return result.motion.balls[0].at(0.15);
@@ -37,8 +37,8 @@ void expect_bounce(const BallState& state, double azimuth_deg, double speed, dou
     const Vec3 d = along(azimuth_deg);
     const Vec3 expected = speed * d + Vec3(0, 0, 4);
     EXPECT_LT((state.velocity - expected).norm(), bound) << state.velocity.transpose();
-    const Vec3 spin = surface_speed / kRadius * Vec3::UnitZ().cross(d);
-    EXPECT_LT((state.spin - spin).norm() * kRadius, bound) << state.spin.transpose();
+    const Vec3 spin = surface_speed / kFrictionRadius * Vec3::UnitZ().cross(d);
+    EXPECT_LT((state.spin - spin).norm() * kFrictionRadius, bound) << state.spin.transpose();
 }
 
 const double kAzimuths[] = {0, 30, 37, 45, 60, 90, 135, 211, 300};
@@ -79,7 +79,7 @@ TEST(Friction, H13WithQuickStep) {
 TEST(Friction, SpinAboutTheNormalStays) {
     Scene scene = scene_of(0.8, 0.5, 0, 1e-3);
     add_plane(scene);
-    add_ball(scene, {0, 0, kRadius + 0.1}, {3, 0, -5}).spin = Vec3(0, 0, 17);
+    add_ball(scene, {0, 0, kFrictionRadius + 0.1}, {3, 0, -5}).spin = Vec3(0, 0, 17);
     const auto result = run(scene, 0.1);
     const BallState end = result.motion.balls[0].at(0.1);
     EXPECT_NEAR(end.spin.z(), 17, 1e-13);
@@ -91,7 +91,7 @@ TEST(Friction, H14SlidesThenRolls) {
     for (double azimuth : {0.0, 45.0, 211.0}) {
         Scene scene = scene_of(0.5, 0.2, kGravity, step);
         add_plane(scene);
-        add_ball(scene, {0, 0, kRadius}, 7 * along(azimuth));
+        add_ball(scene, {0, 0, kFrictionRadius}, 7 * along(azimuth));
         const auto result = run(scene, 2);
         const auto rolls = events_of(result.motion, EventKind::kRoll);
         ASSERT_EQ(rolls.size(), 1u);
@@ -104,7 +104,7 @@ TEST(Friction, H14SlidesThenRolls) {
         EXPECT_NEAR(at_roll.position.head<2>().norm(), 6.116207951, 2 * step * 7);
         const BallState end = result.motion.balls[0].at(2);
         EXPECT_LT((end.velocity - 5 * along(azimuth)).norm(), 1e-9);
-        EXPECT_NEAR(end.spin.norm() * kRadius, 5, 1e-9);
+        EXPECT_NEAR(end.spin.norm() * kFrictionRadius, 5, 1e-9);
         EXPECT_LE(result.motion.balls[0].pieces().size(), 8u);
     }
 }
@@ -121,13 +121,13 @@ TEST(Friction, H16RollsOrSlidesDownAnIncline) {
             Scene scene = scene_of(0.5, row.mu, kGravity, step);
             const Vec3 normal = incline(30, azimuth);
             add_plane(scene, normal);
-            add_ball(scene, kRadius * normal).inertia_factor = row.k;
+            add_ball(scene, kFrictionRadius * normal).inertia_factor = row.k;
             const auto result = run(scene, 1);
             const Trajectory& ball = result.motion.balls[0];
             const double moved = (ball.at(1).position - ball.at(0).position).norm();
             // semi-implicit Euler: a (t^2 + t h) / 2
             EXPECT_NEAR(moved, 0.5 * row.acceleration * (1 + step), 1e-9);
-            EXPECT_NEAR(ball.at(0.5).position.dot(normal), kRadius, 1e-10);
+            EXPECT_NEAR(ball.at(0.5).position.dot(normal), kFrictionRadius, 1e-10);
             const double acceleration =
                 (ball.at(0.9).velocity - ball.at(0.1).velocity).norm() / 0.8;
             if (azimuth == 45)
@@ -147,7 +147,7 @@ TEST(Friction, H28SlipAcrossAnInclineTurns) {
     Scene scene = scene_of(0.5, mu, kGravity, step);
     const Vec3 normal = incline(10);
     add_plane(scene, normal);
-    add_ball(scene, kRadius * normal, {0, 3, 0});
+    add_ball(scene, kFrictionRadius * normal, {0, 3, 0});
     const auto result = run(scene, time);
 
     const double g_n = kGravity * normal.z();
@@ -175,7 +175,7 @@ TEST(Friction, IsAConeNotAPyramid) {
     for (double azimuth : kAzimuths) {
         Scene scene = scene_of(0.5, 0.2, kGravity, 1e-3);
         add_plane(scene);
-        add_ball(scene, {0, 0, kRadius}, 7 * along(azimuth));
+        add_ball(scene, {0, 0, kFrictionRadius}, 7 * along(azimuth));
         const auto result = run(scene, 0.5);
         const double lost = 7 - result.motion.balls[0].at(0.4).velocity.norm();
         slowest = std::min(slowest, lost);

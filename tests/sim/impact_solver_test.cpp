@@ -12,17 +12,17 @@
 namespace carom {
 namespace {
 
-constexpr double kRadius = 0.1;
+constexpr double kSolverRadius = 0.1;
 
 ImpactBody ball(const Vec3& position, const Vec3& velocity, double mass = 1, double k = 0.4) {
-    return {position, {velocity, Vec3::Zero()}, mass, k * mass * kRadius * kRadius};
+    return {position, {velocity, Vec3::Zero()}, mass, k * mass * kSolverRadius * kSolverRadius};
 }
 
 SolverContact on_surface(int index, const Vec3& normal, double e, double mu = 0) {
     SolverContact c;
     c.body = index;
     c.normal = normal;
-    c.arm = -kRadius * normal;
+    c.arm = -kSolverRadius * normal;
     c.restitution = e;
     c.friction = mu;
     return c;
@@ -33,8 +33,8 @@ SolverContact between(int a, int b, const std::vector<ImpactBody>& bodies, doubl
     c.body = a;
     c.other_body = b;
     c.normal = (bodies[std::size_t(a)].position - bodies[std::size_t(b)].position).normalized();
-    c.arm = -kRadius * c.normal;
-    c.arm_other = kRadius * c.normal;
+    c.arm = -kSolverRadius * c.normal;
+    c.arm_other = kSolverRadius * c.normal;
     c.restitution = e;
     return c;
 }
@@ -63,9 +63,9 @@ TEST_P(SingleContact, FrictionAtEveryAzimuth) {
                 const double rw = grips ? 3 / (1 + k) : mu * 9 / k;
                 worst = std::max(worst,
                                  (bodies[0].velocities.linear - v * along - Vec3(0, 0, 4)).norm());
-                worst = std::max(
-                    worst,
-                    (kRadius * bodies[0].velocities.spin - rw * Vec3::UnitZ().cross(along)).norm());
+                worst = std::max(worst, (kSolverRadius * bodies[0].velocities.spin -
+                                         rw * Vec3::UnitZ().cross(along))
+                                            .norm());
                 EXPECT_NEAR(contacts[0].impulse, 9, 1e-13);
                 EXPECT_NEAR(contacts[0].tangential_impulse, 3 - v, 1e-13);
             }
@@ -84,7 +84,7 @@ TEST(ImpactSolver, OneContactIsAsOdeSolvesIt) {
     for (int i = 0; i < 500; ++i) {
         std::vector<ImpactBody> bodies = {ball(vector(), 3 * vector(), 0.5 + i % 7),
                                           ball(vector(), 3 * vector(), 2, 2.0 / 3)};
-        bodies[1].position = bodies[0].position + 2 * kRadius * vector().normalized();
+        bodies[1].position = bodies[0].position + 2 * kSolverRadius * vector().normalized();
         for (ImpactBody& b : bodies) b.velocities.spin = 20 * vector();
         std::vector<SolverContact> contacts = {
             i % 2 == 0 ? between(0, 1, bodies, 0.5 + 0.5 * uniform(random))
@@ -97,7 +97,7 @@ TEST(ImpactSolver, OneContactIsAsOdeSolvesIt) {
         for (std::size_t b = 0; b < 2; ++b) {
             const Velocities &x = bodies[b].velocities, &y = same[b].velocities;
             worst = std::max(worst, (x.linear - y.linear).norm());
-            worst = std::max(worst, kRadius * (x.spin - y.spin).norm());
+            worst = std::max(worst, kSolverRadius * (x.spin - y.spin).norm());
         }
         worst = std::max(worst, std::abs(contacts[0].impulse - same_contacts[0].impulse));
         if (contacts[0].approach_speed > 0 && contacts[0].friction > 0)

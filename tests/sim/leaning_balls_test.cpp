@@ -12,7 +12,7 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kRadius = 0.1;
+constexpr double kLeaningRadius = 0.1;
 
 /// Solid balls of 1 kg and 0.1 m: a stands on z = 0, b leans on it.
 struct Pair {
@@ -31,9 +31,9 @@ struct Slips {
 Slips slips_of(const Pair& s) {
     Slips r;
     r.n = (s.xb - s.xa).normalized();
-    r.floor = s.va - kRadius * s.wa.cross(Vec3::UnitZ());
+    r.floor = s.va - kLeaningRadius * s.wa.cross(Vec3::UnitZ());
     r.floor.z() = 0;
-    const Vec3 between = s.vb - s.va - kRadius * (s.wa + s.wb).cross(r.n);
+    const Vec3 between = s.vb - s.va - kLeaningRadius * (s.wa + s.wb).cross(r.n);
     r.between = between - r.n.dot(between) * r.n;
     return r;
 }
@@ -51,11 +51,11 @@ Pair rates(const Pair& s, double mu_floor, double mu_between) {
     const Eigen::Vector2d forces =
         m.inverse() * Eigen::Vector2d(kGravity, -across / (s.xb - s.xa).norm());
     const Vec3 floor = forces[0] * on_floor, between = forces[1] * on_b;
-    constexpr double kInertia = 0.4 * kRadius * kRadius;
+    constexpr double kInertia = 0.4 * kLeaningRadius * kLeaningRadius;
     return {floor - between + g,
-            (-kRadius * z.cross(floor) - kRadius * slip.n.cross(between)) / kInertia,
+            (-kLeaningRadius * z.cross(floor) - kLeaningRadius * slip.n.cross(between)) / kInertia,
             between + g,
-            -kRadius * slip.n.cross(between) / kInertia,
+            -kLeaningRadius * slip.n.cross(between) / kInertia,
             s.va,
             s.vb};
 }
@@ -89,9 +89,9 @@ Leaning leaning(double mu_floor, double mu_between, const Vec3& offset, const Ve
     Leaning r{exact_scene(0, mu_floor, kGravity), mu_floor, mu_between};
     use_pair(r.scene, 0, mu_between);
     add_plane(r.scene);
-    add_ball(r.scene, {0, 0, kRadius}, Vec3::Zero(), kRadius).spin = spin_a;
-    add_ball(r.scene, Vec3(0, 0, kRadius) + 2 * kRadius * offset.normalized(), Vec3::Zero(),
-             kRadius)
+    add_ball(r.scene, {0, 0, kLeaningRadius}, Vec3::Zero(), kLeaningRadius).spin = spin_a;
+    add_ball(r.scene, Vec3(0, 0, kLeaningRadius) + 2 * kLeaningRadius * offset.normalized(),
+             Vec3::Zero(), kLeaningRadius)
         .spin = spin_b;
     r.scene.simulation.duration = 0.3;
     return r;
@@ -124,8 +124,8 @@ double error_after_grip(Leaning& l) {
             const Pair right = after(start, seconds, l.mu_floor, l.mu_between);
             const Pair found = pair_at(result.motion, e.time + seconds);
             return std::max({(found.va - right.va).norm(), (found.vb - right.vb).norm(),
-                             kRadius * (found.wa - right.wa).norm(),
-                             kRadius * (found.wb - right.wb).norm()});
+                             kLeaningRadius * (found.wa - right.wa).norm(),
+                             kLeaningRadius * (found.wb - right.wb).norm()});
         }
         held = e.kind == EventKind::kRoll;
     }

@@ -15,13 +15,14 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kR = 0.5, kBall = 0.1;
-constexpr double kLength = kR - kBall;
+constexpr double kPipeR = 0.5, kPipeBall = 0.1;
+constexpr double kPipeLength = kPipeR - kPipeBall;
 constexpr double kTube = 7;  ///< rad: all around
 
 Scene with_pipe(double angle, double restitution, double friction) {
     Scene scene = exact_scene(restitution, friction, kGravity);
-    add_surface(scene, "pipe", PipeShape{Vec3(-2, 0, 0), Vec3(2, 0, 0), kR, Vec3::UnitZ(), angle});
+    add_surface(scene, "pipe",
+                PipeShape{Vec3(-2, 0, 0), Vec3(2, 0, 0), kPipeR, Vec3::UnitZ(), angle});
     return scene;
 }
 
@@ -29,9 +30,10 @@ Scene with_pipe(double angle, double restitution, double friction) {
 TEST(Pipe, ABallSwingsInAHalfPipe) {
     for (const double a : {0.1, 0.8, 1.5}) {
         Scene scene = with_pipe(std::numbers::pi, 0, 0);
-        const Vec3 start(-1.5, kLength * std::sin(a), -kLength * std::cos(a));
+        const Vec3 start(-1.5, kPipeLength * std::sin(a), -kPipeLength * std::cos(a));
         add_ball(scene, start, Vec3(0.4, 0, 0));
-        const double half = 2 * std::sqrt(kLength / kGravity) * std::comp_ellint_1(std::sin(a / 2));
+        const double half =
+            2 * std::sqrt(kPipeLength / kGravity) * std::comp_ellint_1(std::sin(a / 2));
         const SimulationResult r = run(scene, 4 * half);
         double worst = 0;
         for (int i = 1; i <= 4; ++i) {
@@ -49,17 +51,19 @@ TEST(Pipe, ABallSwingsInAHalfPipe) {
 /// Fufaev, "Dynamics of Nonholonomic Systems", 1972, ch. II).
 TEST(Pipe, ABallRollsUpAndDownInAnUprightTube) {
     Scene scene = exact_scene(0, 1e12, kGravity);
-    add_surface(scene, "tube", PipeShape{Vec3(0, 0, -9), Vec3(0, 0, 2), kR, Vec3::UnitX(), kTube});
-    const double v = 6, turn = v / kLength, rate = turn * std::sqrt(kSolid / (1 + kSolid));
+    add_surface(scene, "tube",
+                PipeShape{Vec3(0, 0, -9), Vec3(0, 0, 2), kPipeR, Vec3::UnitX(), kTube});
+    const double v = 6, turn = v / kPipeLength, rate = turn * std::sqrt(kSolid / (1 + kSolid));
     const Vec3 n(-1, 0, 0);
-    add_ball(scene, Vec3(kLength, 0, 0), Vec3(0, v, 0)).spin = n.cross(Vec3(0, v, 0)) / kBall;
+    add_ball(scene, Vec3(kPipeLength, 0, 0), Vec3(0, v, 0)).spin =
+        n.cross(Vec3(0, v, 0)) / kPipeBall;
     const SimulationResult r = run(scene, 3);
     // From rest at the top: (1 + k) z'' = -g at the start.
     const double depth = kGravity / (1 + kSolid) / (rate * rate);
     double worst = 0;
     for (int i = 0; i <= 300; ++i) {
         const double t = 0.01 * i;
-        const Vec3 expected(kLength * std::cos(turn * t), kLength * std::sin(turn * t),
+        const Vec3 expected(kPipeLength * std::cos(turn * t), kPipeLength * std::sin(turn * t),
                             -depth * (1 - std::cos(rate * t)));
         worst = std::max(worst, (r.motion.balls[0].at(t).position - expected).norm());
     }
@@ -83,14 +87,18 @@ TEST(Pipe, BallsAreReflectedFromAllItsSides) {
                   1e-13);
     };
     const Vec3 out(0, 0.6, -0.8), down(0, 0, -2), back(-2, 0, 0);
-    expect(kLength * out, -out, 2 * out);
-    expect((kR + kBall) * out, out, Vec3(1, -1.6, 1.2));
-    expect(Vec3(0.3, kR, 0) + kBall * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8), down);  // an edge
-    expect(Vec3(0.3, -kR, 0) + kBall * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8), down);
-    expect(Vec3(2, 0, 0) + kR * out + kBall * Vec3(0.8, 0.36, -0.48), Vec3(0.8, 0.36, -0.48),
+    expect(kPipeLength * out, -out, 2 * out);
+    expect((kPipeR + kPipeBall) * out, out, Vec3(1, -1.6, 1.2));
+    expect(Vec3(0.3, kPipeR, 0) + kPipeBall * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8),
+           down);  // an edge
+    expect(Vec3(0.3, -kPipeR, 0) + kPipeBall * Vec3(0, 0.6, 0.8), Vec3(0, 0.6, 0.8), down);
+    expect(Vec3(2, 0, 0) + kPipeR * out + kPipeBall * Vec3(0.8, 0.36, -0.48),
+           Vec3(0.8, 0.36, -0.48),
            back);  // an end
-    expect(Vec3(2, 0, 0) + kR * out + kBall * Vec3(0.8, -0.36, 0.48), Vec3(0.8, -0.36, 0.48), back);
-    expect(Vec3(2, kR, 0) + kBall * Vec3(2, 1, 2) / 3, Vec3(2, 1, 2) / 3, down);  // a corner
+    expect(Vec3(2, 0, 0) + kPipeR * out + kPipeBall * Vec3(0.8, -0.36, 0.48),
+           Vec3(0.8, -0.36, 0.48), back);
+    expect(Vec3(2, kPipeR, 0) + kPipeBall * Vec3(2, 1, 2) / 3, Vec3(2, 1, 2) / 3,
+           down);  // a corner
 }
 
 /// Out of the end of a sloping pipe, rolling: over the arc in which it ends.
@@ -98,16 +106,16 @@ TEST(Pipe, ABallRollsOutOfItsEnd) {
     const double slope = 0.2;
     const Vec3 axis(std::cos(slope), 0, -std::sin(slope)), up(std::sin(slope), 0, std::cos(slope));
     Scene scene = exact_scene(0, 0.6, kGravity);
-    add_surface(scene, "pipe", PipeShape{-axis, Vec3::Zero(), kR, Vec3::UnitZ(), 2.5});
-    add_ball(scene, -0.8 * axis - kLength * up);
+    add_surface(scene, "pipe", PipeShape{-axis, Vec3::Zero(), kPipeR, Vec3::UnitZ(), 2.5});
+    add_ball(scene, -0.8 * axis - kPipeLength * up);
     const double a = kGravity * std::sin(slope) / (1 + kSolid), t = std::sqrt(2 * 0.8 / a);
     const SimulationResult r = run(scene, t + 0.5);
     const BallState end = r.motion.balls[0].at(t);
-    EXPECT_LT((end.position + kLength * up).norm(), kBound);
+    EXPECT_LT((end.position + kPipeLength * up).norm(), kBound);
     EXPECT_NEAR(end.velocity.dot(axis), a * t, kBound);
     // v^2 = g r cos where it leaves the edge, or at once if it is faster.
     const double v2 = a * t * a * t;
-    ASSERT_GT(v2, kGravity * kBall * std::cos(slope));
+    ASSERT_GT(v2, kGravity * kPipeBall * std::cos(slope));
     const Event leave = only(r.motion, EventKind::kLeave);
     EXPECT_NEAR(leave.time, t, 1e-12);
 }
@@ -115,7 +123,7 @@ TEST(Pipe, ABallRollsOutOfItsEnd) {
 /// A ball too large for a half pipe rests on both edges, 3-4-5 above them, and slides along them.
 TEST(Pipe, ALargeBallLiesOnBothEdges) {
     Scene scene = with_pipe(std::numbers::pi, 0.4, 0.3);
-    const double radius = kR / 0.8;  // the centre is 0.6 of the radius above the edges
+    const double radius = kPipeR / 0.8;  // the centre is 0.6 of the radius above the edges
     add_ball(scene, Vec3(0, 0.02, 0.6 * radius + 0.05), Vec3::Zero(), radius);
     const SimulationResult r = run(scene, 6);
     EXPECT_LT((r.motion.balls[0].at(6).position.tail<2>() - Vec2(0, 0.6 * radius)).norm(), 1e-9);
@@ -134,7 +142,7 @@ TEST(Pipe, NoBallLeavesATubeThroughItsWall) {
     const auto [drift, farthest] =
         wandering(scene, [](const Vec3& p) { return p.tail<2>().norm(); });
     EXPECT_LT(drift, 1e-11);
-    EXPECT_LT(farthest, kLength + 1e-12);
+    EXPECT_LT(farthest, kPipeLength + 1e-12);
 }
 
 }  // namespace

@@ -12,10 +12,10 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kR = 0.4, kTube = 0.05, kBall = 0.1;
-constexpr double kD = kBall + kTube;  ///< of a touching centre from the circle, m
+constexpr double kRingR = 0.4, kTube = 0.05, kRingBall = 0.1;
+constexpr double kD = kRingBall + kTube;  ///< of a touching centre from the circle, m
 
-const RingShape kLevel{Vec3::Zero(), Vec3::UnitZ(), kR, kTube};
+const RingShape kLevel{Vec3::Zero(), Vec3::UnitZ(), kRingR, kTube};
 
 Scene with_ring(const RingShape& ring, double restitution, double friction) {
     Scene scene = exact_scene(restitution, friction, kGravity);
@@ -29,7 +29,7 @@ void expect_reflection(const Vec3& n, double azimuth, double e) {
     const Vec3 outward(std::cos(azimuth), std::sin(azimuth), 0);
     const Vec3 normal = n.x() * outward + n.z() * Vec3::UnitZ();
     const double fall = 0.7, t = std::sqrt(2 * fall / kGravity);
-    add_ball(scene, kR * outward + kD * normal + fall * Vec3::UnitZ());
+    add_ball(scene, kRingR * outward + kD * normal + fall * Vec3::UnitZ());
     const SimulationResult r = run(scene, t + 0.02);
     const std::vector<Event> impacts = impacts_of(r.motion);
     ASSERT_EQ(impacts.size(), 1u);
@@ -49,7 +49,7 @@ TEST(Ring, ADroppedBallIsReflectedAboutTheNormal) {
 
 TEST(Ring, ABallFallsThroughTheHole) {
     Scene scene = with_ring(kLevel, 0.5, 0.3);
-    const double room = kR - kD;
+    const double room = kRingR - kD;
     add_ball(scene, Vec3(0, 0, 1));
     add_ball(scene, Vec3(0, room - 1e-9, 2));
     add_ball(scene, Vec3(room + 1e-9, 0, 3));
@@ -64,9 +64,9 @@ TEST(Ring, ABallFallsThroughTheHole) {
 /// An upright ring: a smooth ball inside it, in its plane, is a pendulum of the length R - d, whose
 /// half a swing from rest takes 2 sqrt(L/g) K(sin(a/2)).
 TEST(Ring, ABallSwingsInsideAnUprightRing) {
-    const double length = kR - kD;
+    const double length = kRingR - kD;
     for (const double a : {0.1, 1.0, 1.5}) {
-        Scene scene = with_ring({Vec3::Zero(), Vec3::UnitY(), kR, kTube}, 0, 0);
+        Scene scene = with_ring({Vec3::Zero(), Vec3::UnitY(), kRingR, kTube}, 0, 0);
         const Vec3 start(length * std::sin(a), 0, -length * std::cos(a));
         add_ball(scene, start);
         const double half = 2 * std::sqrt(length / kGravity) * std::comp_ellint_1(std::sin(a / 2));
@@ -86,8 +86,8 @@ TEST(Ring, ABallSwingsInsideAnUprightRing) {
 
 /// Round and round the inside of an upright ring, without loss: v^2 = v0^2 - 2 g L (1 - cos).
 TEST(Ring, ABallLoopsTheLoopInsideARing) {
-    const double length = kR - kD, v0 = std::sqrt(5.5 * kGravity * length);  // 5 g L holds
-    Scene scene = with_ring({Vec3::Zero(), Vec3::UnitY(), kR, kTube}, 0, 0);
+    const double length = kRingR - kD, v0 = std::sqrt(5.5 * kGravity * length);  // 5 g L holds
+    Scene scene = with_ring({Vec3::Zero(), Vec3::UnitY(), kRingR, kTube}, 0, 0);
     add_ball(scene, Vec3(0, 0, -length), Vec3(v0, 0, 0));
     const SimulationResult r = run(scene, 3);
     EXPECT_TRUE(events_of(r.motion, EventKind::kLeave).empty());
@@ -102,7 +102,7 @@ TEST(Ring, ABallLoopsTheLoopInsideARing) {
     EXPECT_LT(worst, kBound * v0 * v0);
     EXPECT_LT(off, 1e-13);
     // A little slower it leaves where g cos = -v^2 / L, cos measured from below.
-    Scene slow = with_ring({Vec3::Zero(), Vec3::UnitY(), kR, kTube}, 0, 0);
+    Scene slow = with_ring({Vec3::Zero(), Vec3::UnitY(), kRingR, kTube}, 0, 0);
     add_ball(slow, Vec3(0, 0, -length), Vec3(std::sqrt(4 * kGravity * length), 0, 0));
     const Event leave = only(run(slow, 0.5).motion, EventKind::kLeave);
     EXPECT_NEAR(leave.normal.z(), -2.0 / 3, kBound);
@@ -115,7 +115,7 @@ TEST(Ring, ASmoothBallKeepsItsMomentAboutTheAxis) {
         for (const double along : {0.0, 0.4, 1.0}) {
             Scene scene = with_ring(kLevel, 0, 0);
             const Vec3 n(std::sin(tilt), 0, std::cos(tilt));
-            const Vec3 start = Vec3(kR, 0, 0) + kD * n;
+            const Vec3 start = Vec3(kRingR, 0, 0) + kD * n;
             add_ball(scene, start, Vec3(0, along, 0));
             const SimulationResult r = run(scene, 3);
             const std::vector<Event> leaves = events_of(r.motion, EventKind::kLeave);
@@ -129,7 +129,7 @@ TEST(Ring, ASmoothBallKeepsItsMomentAboutTheAxis) {
                     s.position.x() * s.velocity.y() - s.position.y() * s.velocity.x();
                 worst = std::max({worst, std::abs(moment - start.x() * along),
                                   std::abs(energy(scene, s) - energy(scene, ball.at(0)))});
-                off = std::max(off, std::abs(nearest_on(kLevel, s.position, kBall).gap));
+                off = std::max(off, std::abs(nearest_on(kLevel, s.position, kRingBall).gap));
             }
             const BallState s = ball.at(leave.time * (1 - 1e-15));
             const double away = std::hypot(s.position.x(), s.position.y());
@@ -152,7 +152,7 @@ TEST(Ring, ASmoothBallKeepsItsMomentAboutTheAxis) {
 TEST(Ring, ABallRollsOffARingWithoutLoss) {
     Scene scene = with_ring(kLevel, 0, 1e12);
     const Vec3 n(std::sin(0.1), 0, std::cos(0.1)), v(0, 0.7, 0);
-    add_ball(scene, Vec3(kR, 0, 0) + kD * n, v).spin = n.cross(v) / kBall + 5 * n;
+    add_ball(scene, Vec3(kRingR, 0, 0) + kD * n, v).spin = n.cross(v) / kRingBall + 5 * n;
     const SimulationResult r = run(scene, 2);
     const Event leave = events_of(r.motion, EventKind::kLeave).front();
     double drift = 0, slip = 0;
@@ -169,7 +169,7 @@ TEST(Ring, ABallRollsOffARingWithoutLoss) {
 }
 
 TEST(Ring, WithoutLossABallThatRattlesInsideKeepsItsEnergy) {
-    Scene scene = with_ring({Vec3::Zero(), Vec3::UnitY(), kR, kTube}, 1, 0);
+    Scene scene = with_ring({Vec3::Zero(), Vec3::UnitY(), kRingR, kTube}, 1, 0);
     add_ball(scene, Vec3(0.1, 0, 0.05), Vec3(1.3, 0, 0.4));
     const SimulationResult r = run(scene, 5);
     const Trajectory& ball = r.motion.balls[0];
@@ -239,7 +239,7 @@ TEST(Ring, ABallThatRattlesInASmallHoleComesToRest) {
 /// Without gravity, and with gravity along the axis: its own motion presses a ball onto the inside
 /// of a ring. After the bounces, which keep the speed along it, it goes round in a circle.
 TEST(Ring, ABallCirclesInsideARingThatNothingElsePressesItOnto) {
-    const double length = kR - kD;
+    const double length = kRingR - kD;
     Scene scene = with_ring(kLevel, 0.5, 0);
     scene.simulation.gravity.setZero();
     add_ball(scene, Vec3(0.1, 0, 0), Vec3(0.3, 1, 0));
@@ -265,7 +265,7 @@ TEST(Ring, FixedStepsMeetIt) {
     Scene scene = scene_of(0.5, 0, kGravity, 1e-4);
     add_surface(scene, "ring", kLevel);
     const double t = std::sqrt(2 * 0.5 / kGravity);
-    add_ball(scene, Vec3(kR - 0.6 * kD, 0, 0.8 * kD + 0.5));
+    add_ball(scene, Vec3(kRingR - 0.6 * kD, 0, 0.8 * kD + 0.5));
     const SimulationResult r = run(scene, t + 0.02);
     const std::vector<Event> impacts = impacts_of(r.motion);
     ASSERT_EQ(impacts.size(), 1u);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double kRadius = 0.1;
+constexpr double kRollerRadius = 0.1;
 
 /// Materials that meet with these numbers.
 Scene resisted_scene(double friction, double rolling, double pivoting) {
@@ -27,8 +27,8 @@ Scene resisted_scene(double friction, double rolling, double pivoting) {
 /// A ball on the plane through the origin with this normal, that rolls along it with `v`.
 Ball& add_rolling(Scene& scene, const Vec3& normal, const Vec3& v) {
     add_plane(scene, normal);
-    Ball& ball = add_ball(scene, kRadius * normal, v);
-    ball.spin = normal.cross(v) / kRadius;
+    Ball& ball = add_ball(scene, kRollerRadius * normal, v);
+    ball.spin = normal.cross(v) / kRollerRadius;
     return ball;
 }
 
@@ -65,7 +65,7 @@ TEST(RollingResistance, ARollOnALevelFloorStops) {
             const BallState end = motion.balls[0].at(motion.duration);
             worst =
                 std::max({worst, relative_error(rest.time, t), relative_error(motion.duration, t),
-                          (end.position - Vec3(d * along + Vec3(0, 0, kRadius))).norm() / d});
+                          (end.position - Vec3(d * along + Vec3(0, 0, kRollerRadius))).norm() / d});
             EXPECT_TRUE(end.velocity.isZero(0) && end.spin.isZero(0));
             expect_falling_energy(scene, motion);
         }
@@ -77,7 +77,7 @@ TEST(RollingResistance, ABallThatSlidesIsResistedOnceItRolls) {
     const double mu = 0.2, rolling = 0.03, v0 = 3, k = kSolid;
     Scene scene = resisted_scene(mu, rolling, 0);
     add_plane(scene);
-    add_ball(scene, {0, 0, kRadius}, {v0, 0, 0});
+    add_ball(scene, {0, 0, kRollerRadius}, {v0, 0, 0});
     const Motion motion = until_rest(scene);
     // Slides until v = v0 / (1 + k), as without resistance.
     const double v1 = v0 / (1 + k), t1 = (v0 - v1) / (mu * kGravity);
@@ -101,7 +101,7 @@ TEST(RollingResistance, UpASlopeItStaysOrComesBack) {
         const bool stays = std::tan(a) <= (1 + k) * rolling;
         EXPECT_EQ(stays, degrees < 5);
         const Motion motion = stays ? until_rest(scene) : run(scene, 2).motion;
-        Vec3 expected = kRadius * n - way * down;
+        Vec3 expected = kRollerRadius * n - way * down;
         if (stays) {
             EXPECT_LT(relative_error(motion.duration, top), 1e-12);
         } else {
@@ -142,7 +142,7 @@ TEST(RollingResistance, ATurningRollIsThatOfItsEquation) {
     const auto rate = [&](const Vec3& v) {
         return Vec3(g_t / (1 + kSolid) - rolling * g_n * v.normalized());
     };
-    Vec3 x = kRadius * n, v = 1.2 * across;
+    Vec3 x = kRollerRadius * n, v = 1.2 * across;
     const int steps = 20000;
     const double h = 1.0 / steps;
     for (int i = 0; i < steps; ++i) {
@@ -173,7 +173,8 @@ TEST(RollingResistance, InABowlItSwingsLessAndStops) {
     // with N = m (g cos t + v^2/L). A swing from rest at t0 ends where u is 0 again.
     const double rolling = 0.02, L = 0.9, t0 = 0.8, k = kSolid;
     Scene scene = resisted_scene(0.9, rolling, 0);
-    add_surface(scene, "bowl", BowlShape{Vec3(0, 0, 0), L + kRadius, Vec3::UnitZ(), L + kRadius});
+    add_surface(scene, "bowl",
+                BowlShape{Vec3(0, 0, 0), L + kRollerRadius, Vec3::UnitZ(), L + kRollerRadius});
     add_ball(scene, {-L * std::sin(t0), 0, -L * std::cos(t0)});
     // With A sin t + B cos t as the particular solution.
     const double c = kGravity * L, m = 2 * rolling;
@@ -225,9 +226,9 @@ TEST(Pivoting, ATopStops) {
             const double p = 0.002;
             Scene scene = resisted_scene(friction, 0, p);
             add_plane(scene);
-            add_ball(scene, {0, 0, kRadius}).spin = {0, 0, w};
+            add_ball(scene, {0, 0, kRollerRadius}).spin = {0, 0, w};
             const Motion motion = until_rest(scene);
-            const double t = kSolid * kRadius * kRadius * std::abs(w) / (p * kGravity);
+            const double t = kSolid * kRollerRadius * kRollerRadius * std::abs(w) / (p * kGravity);
             worst = std::max(worst, relative_error(motion.duration, t));
             EXPECT_NEAR(motion.balls[0].at(0.25 * t).spin.z(), 0.75 * w, 1e-13 * std::abs(w));
             EXPECT_TRUE(motion.balls[0].at(t).spin.isZero(1e-12));
@@ -244,7 +245,7 @@ TEST(Pivoting, AddsAndGoesOnWhateverElseTheBallDoes) {
     add_rolling(scene, Vec3::UnitZ(), {v, 0, 0}).spin.z() = 50;
     const Motion motion = until_rest(scene);
     const double stops = v / (rolling * kGravity);
-    const double slows = 0.003 * kGravity / (kSolid * kRadius * kRadius);
+    const double slows = 0.003 * kGravity / (kSolid * kRollerRadius * kRollerRadius);
     EXPECT_LT(relative_error(only(motion, EventKind::kRest).time, stops), 1e-12);
     EXPECT_LT(relative_error(motion.duration, std::max(stops, 50 / slows)), 1e-12);
     EXPECT_NEAR(motion.balls[0].at(1).spin.z(), 50 - slows, 1e-11);
@@ -255,9 +256,10 @@ TEST(Pivoting, OnASphereItIsThatOfItsEquations) {
     // by Runge-Kutta.
     const double rolling = 0.03, pivoting = 0.004, L = 0.9, mu = 2, k = kSolid;
     Scene scene = resisted_scene(mu, rolling, pivoting);
-    add_surface(scene, "bowl", BowlShape{Vec3(0, 0, 0), L + kRadius, Vec3::UnitZ(), L + kRadius});
+    add_surface(scene, "bowl",
+                BowlShape{Vec3(0, 0, 0), L + kRollerRadius, Vec3::UnitZ(), L + kRollerRadius});
     const Vec3 n0(0.6, 0, 0.8);
-    Vec3 x = -L * n0, v(0, 1.5, 0), w = n0.cross(v) / kRadius + 25 * n0;
+    Vec3 x = -L * n0, v(0, 1.5, 0), w = n0.cross(v) / kRollerRadius + 25 * n0;
     Ball& ball = add_ball(scene, x, v);
     ball.spin = w;
     struct Rates {
@@ -267,12 +269,12 @@ TEST(Pivoting, OnASphereItIsThatOfItsEquations) {
         const Vec3 n = -at.normalized(), g(0, 0, -kGravity);
         const double N = -g.dot(n) + vel.squaredNorm() / L;
         const Vec3 turn = -vel / L;  // n'
-        const Vec3 b = g - g.dot(n) * n - kRadius * spin.dot(n) * n.cross(turn);
+        const Vec3 b = g - g.dot(n) * n - kRollerRadius * spin.dot(n) * n.cross(turn);
         const Vec3 r = rolling * N * vel.normalized();
         const Vec3 f = -k / (1 + k) * b - r;
-        const Vec3 moment = -kRadius * n.cross(f) - kRadius * (1 + k) * n.cross(r) -
+        const Vec3 moment = -kRollerRadius * n.cross(f) - kRollerRadius * (1 + k) * n.cross(r) -
                             pivoting * N * (spin.dot(n) > 0 ? 1 : -1) * n;
-        return Rates{vel, g + N * n + f, moment / (k * kRadius * kRadius)};
+        return Rates{vel, g + N * n + f, moment / (k * kRollerRadius * kRollerRadius)};
     };
     const int steps = 40000;
     const double seconds = 0.2, h = seconds / steps;
@@ -299,9 +301,9 @@ TEST(RollingResistance, ABallInAGrooveStops) {
     Scene scene = resisted_scene(0.6, 0.05, 0.001);
     add_plane(scene, Vec3(1, 0, 1));
     add_plane(scene, Vec3(-1, 0, 1));
-    const double height = kRadius * std::sqrt(2.0);
+    const double height = kRollerRadius * std::sqrt(2.0);
     add_ball(scene, {0, 0, height}, {0, 1, 0}).spin = {-height, 0, 0};
-    scene.balls[0].spin = {-1 / (kRadius / std::sqrt(2.0)), 0, 0};
+    scene.balls[0].spin = {-1 / (kRollerRadius / std::sqrt(2.0)), 0, 0};
     const Motion motion = until_rest(scene);
     expect_falling_energy(scene, motion);
     // Each wall presses with m g / sqrt(2), or less where friction carries a part, which the step
@@ -317,7 +319,8 @@ TEST(RollingResistance, BallsThatTouchComeToRestOnASlope) {
     add_plane(scene, n);
     const Vec3 along = Vec3::UnitY();
     for (int i = 0; i < 3; ++i)
-        add_ball(scene, kRadius * n + 0.2 * i * along, {0.3, 0, -0.3 * std::tan(4 * M_PI / 180)});
+        add_ball(scene, kRollerRadius * n + 0.2 * i * along,
+                 {0.3, 0, -0.3 * std::tan(4 * M_PI / 180)});
     const Motion motion = until_rest(scene);
     expect_falling_energy(scene, motion);
 }

@@ -6,7 +6,7 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kG = kGravity, kR = 0.05;
+constexpr double kCornerG = kGravity, kCornerR = 0.05;
 
 /// As of other seams, m and m/s.
 constexpr double kSeam = 1e-11;
@@ -35,14 +35,15 @@ TEST(SeamCorners, ABallDroppedOnASeamComesToRestThere) {
                 const double angle = 0.27 * i;
                 const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
                 const Vec3 start = turn * Vec3(along, 0, 0) + Vec3(0, 0, 0.1);
-                Scene scene = exact_scene(restitution, 0.3, kG);
+                Scene scene = exact_scene(restitution, 0.3, kCornerG);
                 scene.simulation.duration = 1.5;
                 add_floor(scene, angle, true);
-                add_ball(scene, start, Vec3(0, 0, -0.5), kR);
+                add_ball(scene, start, Vec3(0, 0, -0.5), kCornerR);
                 const Motion motion = simulate(scene).motion;
                 const BallState s = motion.balls[0].at(1.5);
-                EXPECT_LE((s.position - Vec3(start.x(), start.y(), kR)).norm(), kSeam) << angle;
-                EXPECT_LE(s.velocity.norm() + kR * s.spin.norm(), kSeam) << angle;
+                EXPECT_LE((s.position - Vec3(start.x(), start.y(), kCornerR)).norm(), kSeam)
+                    << angle;
+                EXPECT_LE(s.velocity.norm() + kCornerR * s.spin.norm(), kSeam) << angle;
                 only(motion, EventKind::kRest);
             }
 }
@@ -55,10 +56,10 @@ TEST(SeamCorners, ABallDriftsAwayFromTheSeamItGoesAlong) {
             const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
             Motion motions[2];
             for (const bool in_parts : {false, true}) {
-                Scene scene = exact_scene(0, 0.01, kG);
+                Scene scene = exact_scene(0, 0.01, kCornerG);
                 scene.simulation.duration = 0.35;
                 add_floor(scene, angle, in_parts);
-                Ball& ball = add_ball(scene, Vec3(0, 0, kR), turn * Vec3(6, 0, 0), kR);
+                Ball& ball = add_ball(scene, Vec3(0, 0, kCornerR), turn * Vec3(6, 0, 0), kCornerR);
                 ball.spin = turn * Vec3(across, 30, 20);
                 const SimulationResult r = simulate(scene);
                 EXPECT_EQ(r.report.steps, 0) << angle;

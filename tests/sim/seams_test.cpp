@@ -6,7 +6,7 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kG = kGravity, kR = 0.1;
+constexpr double kG = kGravity, kSeamR = 0.1;
 
 /// Of places [m] after a second of motion at a few m/s.
 constexpr double kSeam = 1e-11;
@@ -37,11 +37,11 @@ TEST(Seams, ABallSlidesOnOverFlushBoxesAsOnOne) {
                 Scene scene = exact_scene(restitution, 0, kG);
                 scene.simulation.duration = 1;
                 add_row(scene, 25, 1, apart);
-                add_ball(scene, {0, 0, kR}, {speed, 0, 0}, kR);
+                add_ball(scene, {0, 0, kSeamR}, {speed, 0, 0}, kSeamR);
                 const Motion motion = simulate(scene).motion;
                 const BallState s = motion.balls[0].at(1);
                 EXPECT_NEAR(s.position.x(), speed, kSeam) << speed << " " << apart;
-                EXPECT_NEAR(s.position.z(), kR, kSeam) << speed << " " << apart;
+                EXPECT_NEAR(s.position.z(), kSeamR, kSeam) << speed << " " << apart;
                 EXPECT_NEAR(s.velocity.x(), speed, kSeam) << speed << " " << apart;
                 EXPECT_EQ(motion.events.size(), 0u) << speed << " " << apart;
             }
@@ -56,11 +56,11 @@ TEST(Seams, ABallRollsDiagonallyOverTiles) {
                 for (int j = 0; j < 6; ++j)
                     add_box(scene, {0.5 * i, 0.5 * j, -0.1}, {0.5, 0.5, 0.2});
             const Vec3 v = 2 * Vec3(std::cos(angle), std::sin(angle), 0);
-            Ball& ball = add_ball(scene, {0, 0, kR}, v, kR);
-            ball.spin = Vec3::UnitZ().cross(v) / kR;
+            Ball& ball = add_ball(scene, {0, 0, kSeamR}, v, kSeamR);
+            ball.spin = Vec3::UnitZ().cross(v) / kSeamR;
             const Motion motion = simulate(scene).motion;
             const BallState s = motion.balls[0].at(1);
-            EXPECT_LE((s.position - Vec3(v.x(), v.y(), kR)).norm(), kSeam) << angle;
+            EXPECT_LE((s.position - Vec3(v.x(), v.y(), kSeamR)).norm(), kSeam) << angle;
             EXPECT_LE((s.velocity - v).norm(), kSeam) << angle;
             EXPECT_EQ(motion.events.size(), 0u) << angle;
         }
@@ -80,8 +80,8 @@ TEST(Seams, ASlopeOfPlatesIsAsOneLongPlate) {
                     for (int i = 0; i < plates; ++i)
                         add_box(scene, ((i + 0.5) * length) * down - 0.05 * up, {length, 4, 0.1},
                                 turned);
-                    Ball& ball = add_ball(scene, 0.05 * down + kR * up,
-                                          0.7 * down + across * Vec3::UnitY(), kR);
+                    Ball& ball = add_ball(scene, 0.05 * down + kSeamR * up,
+                                          0.7 * down + across * Vec3::UnitY(), kSeamR);
                     ball.spin = Vec3(1, 2, 3);
                     return simulate(scene).motion;
                 };
@@ -90,7 +90,7 @@ TEST(Seams, ASlopeOfPlatesIsAsOneLongPlate) {
                 EXPECT_GT((a.position - one.balls[0].at(0).position).norm(), 0.6);
                 EXPECT_LE((a.position - b.position).norm(), kSeam) << degrees << " " << friction;
                 EXPECT_LE((a.velocity - b.velocity).norm(), kSeam) << degrees << " " << friction;
-                EXPECT_LE(kR * (a.spin - b.spin).norm(), kSeam) << degrees << " " << friction;
+                EXPECT_LE(kSeamR * (a.spin - b.spin).norm(), kSeam) << degrees << " " << friction;
                 EXPECT_EQ(one.events.size(), many.events.size()) << degrees << " " << friction;
             }
 }
@@ -104,11 +104,11 @@ TEST(Seams, CapsulesInLineAreOne) {
                 for (int i = 0; i < 4; ++i)
                     add_surface(scene, ("rail" + std::to_string(i)).c_str(),
                                 CapsuleShape{Vec3(i, 0, -0.1), Vec3(i + 1, 0, -0.1), 0.1});
-                Ball& ball = add_ball(scene, {0.9, 0, kR}, {speed, 0, 0}, kR);
-                if (friction > 0) ball.spin = Vec3(0, speed / kR, 0);
+                Ball& ball = add_ball(scene, {0.9, 0, kSeamR}, {speed, 0, 0}, kSeamR);
+                if (friction > 0) ball.spin = Vec3(0, speed / kSeamR, 0);
                 const Motion motion = simulate(scene).motion;
                 const BallState s = motion.balls[0].at(0.5);
-                EXPECT_LE((s.position - Vec3(0.9 + 0.5 * speed, 0, kR)).norm(), kSeam) << speed;
+                EXPECT_LE((s.position - Vec3(0.9 + 0.5 * speed, 0, kSeamR)).norm(), kSeam) << speed;
                 EXPECT_EQ(motion.events.size(), 0u) << speed;
             }
 }
@@ -125,7 +125,7 @@ TEST(Seams, ABounceOnASeamIsABounce) {
                 add_box(scene, {-1, -1, -0.5}, {2, 2, 1});
                 add_box(scene, {1, -1, -0.5}, {2, 2, 1});
             }
-            add_ball(scene, {beside, 0, kR + 2}, {0.01, 0, 0}, kR);
+            add_ball(scene, {beside, 0, kSeamR + 2}, {0.01, 0, 0}, kSeamR);
             const Motion motion = simulate(scene).motion;
             const std::vector<Event> impacts = impacts_of(motion);
             ASSERT_EQ(impacts.size(), 3u) << beside;
@@ -156,7 +156,7 @@ TEST(Seams, ABallRollsOffTheEndOfASeam) {
                     add_box(scene, at * side - 0.25 * up, {1, 0.4, 0.5}, turned);
             else
                 add_box(scene, -0.25 * up, {1, 0.8, 0.5}, turned);
-            add_ball(scene, 0.3 * down + kR * up, Vec3::Zero(), kR);
+            add_ball(scene, 0.3 * down + kSeamR * up, Vec3::Zero(), kSeamR);
             return simulate(scene).motion;
         };
         const Motion one = run(false), two = run(true);
@@ -171,10 +171,10 @@ TEST(Seams, ABallRestsOverASeam) {
         Scene scene = exact_scene(0.3, 0.5, kG);
         scene.simulation.duration = 10;
         add_row(scene, 2, 1);
-        add_ball(scene, {0.5 + beside, 0, kR + 0.5}, Vec3::Zero(), kR);
+        add_ball(scene, {0.5 + beside, 0, kSeamR + 0.5}, Vec3::Zero(), kSeamR);
         const Motion motion = simulate(scene).motion;
         const BallState s = motion.balls[0].at(10);
-        EXPECT_LE((s.position - Vec3(0.5 + beside, 0, kR)).norm(), 1e-12) << beside;
+        EXPECT_LE((s.position - Vec3(0.5 + beside, 0, kSeamR)).norm(), 1e-12) << beside;
         EXPECT_TRUE(s.velocity.isZero(0)) << beside;
         EXPECT_EQ(events_of(motion, EventKind::kRest).size(), 1u) << beside;
         EXPECT_EQ(other_than_impacts(motion).size(), 1u) << beside;
@@ -187,9 +187,9 @@ TEST(Seams, APlaneGoesOnInTheTopOfABox) {
         scene.simulation.duration = 1;
         add_plane(scene);
         add_box(scene, {1.2, 0, -0.5}, {1, 1, 1});  // its top is in the plane
-        add_ball(scene, {0, 0, kR}, {speed, 0, 0}, kR);
+        add_ball(scene, {0, 0, kSeamR}, {speed, 0, 0}, kSeamR);
         const Motion motion = simulate(scene).motion;
-        EXPECT_LE((motion.balls[0].at(1).position - Vec3(speed, 0, kR)).norm(), kSeam);
+        EXPECT_LE((motion.balls[0].at(1).position - Vec3(speed, 0, kSeamR)).norm(), kSeam);
         EXPECT_EQ(motion.events.size(), 0u);
     }
 }
@@ -200,13 +200,13 @@ TEST(Seams, AWallOnTilesIsMetAsOnAPlane) {
     scene.simulation.duration = 1;
     add_row(scene, 4, 1);
     add_box(scene, {2.75, 0, 0.5}, {0.5, 2, 1});  // stands on a tile
-    add_ball(scene, {0, 0, kR}, {4, 0, 0}, kR);
+    add_ball(scene, {0, 0, kSeamR}, {4, 0, 0}, kSeamR);
     const Motion motion = simulate(scene).motion;
     const std::vector<Event> impacts = impacts_of(motion);
     ASSERT_EQ(impacts.size(), 1u);
     EXPECT_NEAR(impacts[0].time, 2.4 / 4, 1e-13);
     EXPECT_NEAR(motion.balls[0].at(1).position.x(), 2.4 - 0.4 * 2, kSeam);
-    EXPECT_NEAR(motion.balls[0].at(1).position.z(), kR, kSeam);
+    EXPECT_NEAR(motion.balls[0].at(1).position.z(), kSeamR, kSeam);
 }
 
 // ---- Convex joints
@@ -234,10 +234,10 @@ JointRun over_joint(double a, double b, double speed, double way, double frictio
     add_joint(run.scene, a, b);
     const Quat turned(Eigen::AngleAxisd(a * M_PI / 180, Vec3::UnitY()));
     const Vec3 v = turned * Vec3(speed, 0, 0);
-    Ball& ball = add_ball(run.scene, turned * Vec3(-way, 0, kR), v, kR);
+    Ball& ball = add_ball(run.scene, turned * Vec3(-way, 0, kSeamR), v, kSeamR);
     double pull = kG * std::sin(a * M_PI / 180);
     if (friction > 0) {
-        ball.spin = Vec3::UnitY() * speed / kR;
+        ball.spin = Vec3::UnitY() * speed / kSeamR;
         pull *= 5.0 / 7;
     }
     run.speed = std::sqrt(speed * speed + 2 * pull * way);
@@ -253,7 +253,7 @@ TEST(Joints, AFastBallLeavesAtTheEdgeAndLandsAsAParabolaDoes) {
                                std::pair{5.0, 5.5}}) {
         const JointRun run = over_joint(a, b, 1.2, 0.1);
         const double alpha = a * M_PI / 180, turn = (b - a) * M_PI / 180;
-        ASSERT_GT(run.speed * run.speed, kG * kR * std::cos(alpha));
+        ASSERT_GT(run.speed * run.speed, kG * kSeamR * std::cos(alpha));
         const Event leave = only(run.motion, EventKind::kLeave);
         const double pull = kG * std::sin(alpha);
         const double at = pull > 0 ? (run.speed - 1.2) / pull : 0.1 / 1.2;
@@ -261,7 +261,7 @@ TEST(Joints, AFastBallLeavesAtTheEdgeAndLandsAsAParabolaDoes) {
         // Over the second plate the centre falls from v sin(turn) t - g cos(b) t^2 / 2 to where it
         // has R less than it began with, R cos(turn).
         const double up = run.speed * std::sin(turn), fall = kG * std::cos(b * M_PI / 180);
-        const double rise = kR * (std::cos(turn) - 1);
+        const double rise = kSeamR * (std::cos(turn) - 1);
         const double flight = (up + std::sqrt(up * up + 2 * fall * rise)) / fall;
         const std::vector<Event> impacts = impacts_of(run.motion);
         ASSERT_EQ(impacts.size(), 1u) << a << " " << b;
@@ -282,7 +282,7 @@ TEST(Joints, AFastBallLeavesAtTheEdgeAndLandsAsAParabolaDoes) {
 /// that the centre has between the next rails.
 TEST(Joints, AFastBallFliesOverAJointOfRails) {
     constexpr double kApart = 0.09, kRail = 0.06;
-    const double distance = kR + kRail;
+    const double distance = kSeamR + kRail;
     const double height = std::sqrt(distance * distance - kApart * kApart);
     for (const double degrees : {2.0, 10.0, 25.0})
         for (const double speed : {1.4, 2.0}) {
@@ -296,7 +296,7 @@ TEST(Joints, AFastBallFliesOverAJointOfRails) {
                     CapsuleShape{Vec3(0, y, 0), Vec3(2 * std::cos(angle), y, -2 * std::sin(angle)),
                                  kRail});
             }
-            add_ball(scene, Vec3(-0.14, 0, height), Vec3(speed, 0, 0), kR);
+            add_ball(scene, Vec3(-0.14, 0, height), Vec3(speed, 0, 0), kSeamR);
             const double begin = 0.14 / speed;
             const double up = speed * std::sin(angle), fall = kG * std::cos(angle);
             const double rise = height * (std::cos(angle) - 1);
@@ -318,7 +318,7 @@ TEST(Joints, ASlowBallPivotsOverTheEdgeAndKeepsItsEnergy) {
     for (const auto& [a, b] : {std::pair{12.0, 14.0}, std::pair{0.0, 3.0}, std::pair{2.0, 2.5}})
         for (const double friction : {0.0, 0.9}) {
             const JointRun run = over_joint(a, b, 0.3, 0.02, friction);
-            ASSERT_LT(run.speed * run.speed, 0.8 * kG * kR);
+            ASSERT_LT(run.speed * run.speed, 0.8 * kG * kSeamR);
             const double before = energy(run.scene, run.motion.balls[0].at(0));
             for (const double t : {0.1, 0.3, 0.8})
                 EXPECT_NEAR(energy(run.scene, run.motion.balls[0].at(t)), before, 1e-11)
@@ -328,7 +328,7 @@ TEST(Joints, ASlowBallPivotsOverTheEdgeAndKeepsItsEnergy) {
             // On the second plate in the end.
             const BallState s = run.motion.balls[0].at(0.8);
             const Vec3 normal(std::sin(b * M_PI / 180), 0, std::cos(b * M_PI / 180));
-            EXPECT_NEAR(s.position.dot(normal), kR, 1e-12);
+            EXPECT_NEAR(s.position.dot(normal), kSeamR, 1e-12);
         }
 }
 
@@ -354,7 +354,7 @@ TEST(Seams, AGrooveOfPlatesIsAsOneGroove) {
                     add_box(scene, turned * Vec3((i + 0.5) * length, 0, -0.05), {length, 2, 0.1},
                             turned);
             }
-            add_ball(scene, {0.3, 0, kR * std::sqrt(2.0)}, {2, 0, 0}, kR);
+            add_ball(scene, {0.3, 0, kSeamR * std::sqrt(2.0)}, {2, 0, 0}, kSeamR);
             return simulate(scene).motion;
         };
         const Motion one = run(1), many = run(7);

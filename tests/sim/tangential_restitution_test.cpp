@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double kRadius = 0.1;
+constexpr double kSpringyRadius = 0.1;
 
 /// A ball that meets the floor at -v_n, with v_x and spin w about y; the state behind.
 BallState bounce(double e, double b, double mu, double k, double v_x, double w, Method method) {
@@ -24,7 +24,7 @@ BallState bounce(double e, double b, double mu, double k, double v_x, double w, 
     scene.simulation.method = method;
     scene.materials[1].tangential_restitution = b;
     add_plane(scene);
-    Ball& ball = add_ball(scene, {0, 0, kRadius + 0.5}, {v_x, 0, -5});
+    Ball& ball = add_ball(scene, {0, 0, kSpringyRadius + 0.5}, {v_x, 0, -5});
     ball.inertia_factor = k;
     ball.spin = {0, w, 0};
     const auto result = run(scene, 0.15);
@@ -41,16 +41,17 @@ TEST(TangentialRestitution, GarwinsSuperballAndCrosssFormula) {
                     const BallState s = bounce(0.8, b, 10, k, v, w, method);
                     // The slip v - R w becomes -b times itself, and k R w + v keeps (the angular
                     // momentum about the contact).
-                    const double slip = -b * (v - kRadius * w), kept = v + k * kRadius * w;
-                    const double w_after = (kept - slip) / ((1 + k) * kRadius);
-                    EXPECT_NEAR(s.velocity.x(), slip + kRadius * w_after, 1e-13);
+                    const double slip = -b * (v - kSpringyRadius * w),
+                                 kept = v + k * kSpringyRadius * w;
+                    const double w_after = (kept - slip) / ((1 + k) * kSpringyRadius);
+                    EXPECT_NEAR(s.velocity.x(), slip + kSpringyRadius * w_after, 1e-13);
                     EXPECT_NEAR(s.spin.y(), w_after, 1e-12);
                     EXPECT_NEAR(s.velocity.z(), 4, 1e-13);
                 }
     // Garwin: a superball without spin leaves with 3/7 of its speed, and R w = 10/7 of it.
     const BallState s = bounce(1, 1, 10, kSolid, 3, 0, Method::kExact);
     EXPECT_NEAR(s.velocity.x(), 3 * 3.0 / 7, 1e-14);
-    EXPECT_NEAR(kRadius * s.spin.y(), 3 * 10.0 / 7, 1e-14);
+    EXPECT_NEAR(kSpringyRadius * s.spin.y(), 3 * 10.0 / 7, 1e-14);
 }
 
 TEST(TangentialRestitution, FrictionsConeStaysTheLimit) {
@@ -58,17 +59,17 @@ TEST(TangentialRestitution, FrictionsConeStaysTheLimit) {
     for (const Method method : {Method::kExact, Method::kFixed}) {
         const BallState s = bounce(0.8, 0.7, mu, kSolid, 3, 0, method);
         EXPECT_NEAR(s.velocity.x(), 3 - mu * 1.8 * 5, 1e-13);
-        EXPECT_NEAR(kRadius * s.spin.y(), mu * 1.8 * 5 / kSolid, 1e-12);
+        EXPECT_NEAR(kSpringyRadius * s.spin.y(), mu * 1.8 * 5 / kSolid, 1e-12);
     }
 }
 
 TEST(TangentialRestitution, APairMultipliesWhatIsNamed) {
     Scene scene = exact_scene(0.8, 10, 0);
     add_plane(scene);
-    add_ball(scene, {0, 0, kRadius}, {1, 0, -5});
+    add_ball(scene, {0, 0, kSpringyRadius}, {1, 0, -5});
     const auto left = [&] {
         const BallState s = run(scene, 0.01).motion.balls[0].at(0.01);
-        return -(s.velocity.x() - kRadius * s.spin.y());
+        return -(s.velocity.x() - kSpringyRadius * s.spin.y());
     };
     EXPECT_NEAR(left(), 0, 1e-14);
     scene.materials[1].tangential_restitution = 0.5;
@@ -95,15 +96,15 @@ TEST(TangentialRestitution, ClustersObeyTheConeAndGainNoEnergy) {
                               {Vec3(any(random) - i, any(random), any(random) - 1),
                                Vec3(9 * any(random), 9 * any(random), 9 * any(random))},
                               1 + 0.5 * i,
-                              0.4 * (1 + 0.5 * i) * kRadius * kRadius});
+                              0.4 * (1 + 0.5 * i) * kSpringyRadius * kSpringyRadius});
         std::vector<SolverContact> contacts;
         const auto add = [&](int body, int other, const Vec3& normal) {
             SolverContact c;
             c.body = body;
             c.other_body = other;
             c.normal = normal;
-            c.arm = -kRadius * normal;
-            if (other >= 0) c.arm_other = kRadius * normal;
+            c.arm = -kSpringyRadius * normal;
+            if (other >= 0) c.arm_other = kSpringyRadius * normal;
             c.restitution = 0.7;
             c.friction = 0.5;
             c.laws = &laws;

@@ -39,7 +39,7 @@ Nearness nearness_of(const Eigen::Vector4d& plane, double pixel, bool orthograph
     return {-w / n.z(), n.head<2>() * (pixel / n.z()), -n.z(), false};
 }
 
-struct Range {
+struct TileRange {
     double low, high;
 };
 
@@ -87,7 +87,7 @@ PlaneTiles sort_planes_into_tiles(const SurfaceTable& table, const View& view,
     const Vec2 middle_px = 0.5 * Vec2(view.width_px(), view.height_px());
     const Vec2 half_px = Vec2::Constant(0.5 * kTilePx + kAroundPx);
     constexpr double kSky = 0;  // nearness of what no perspective ray meets
-    std::vector<Range> ranges(count);
+    std::vector<TileRange> ranges(count);
     tiles.seen.resize(grid.count());
     tiles.shading.resize(grid.count());
     for (int row = 0; row < grid.rows(); ++row) {

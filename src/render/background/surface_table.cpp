@@ -22,10 +22,6 @@ void put(Record& record, int slot, const Vec3& xyz, double w) {
     record[static_cast<std::size_t>(4 * slot + 3)] = static_cast<float>(w);
 }
 
-Vec3 linear(const Color& c) {
-    return {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
-}
-
 /// As surface_patterns.glsl numbers them.
 double pattern_number(LookStyle style) {
     switch (style) {
@@ -43,8 +39,8 @@ double pattern_number(LookStyle style) {
 }
 
 void put_look(Record& record, const Look& look) {
-    put(record, 4, linear(look.color), pattern_number(look.style));
-    put(record, 5, linear(look.second_color), look.tile_m);
+    put(record, 4, linear_light(look.color), pattern_number(look.style));
+    put(record, 5, linear_light(look.second_color), look.tile_m);
 }
 
 /// Pattern axes in the plane; for a floor they are the world's x and y.

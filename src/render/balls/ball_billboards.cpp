@@ -77,10 +77,6 @@ void put(std::vector<float>& out, const Vec2& xy, const Vec2& zw) {
     put(out, Vec3(xy.x(), xy.y(), zw.x()), zw.y());
 }
 
-Vec3 linear(const Color& c) {
-    return {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
-}
-
 }  // namespace
 
 BallBillboards::BallBillboards(const Gl& gl, const Scene& scene, const View& view,
@@ -244,8 +240,8 @@ void BallBillboards::append_instance(const BallInView& ball, const BallShade& sh
     put(instances_, rest / ball.radius, 0);
     for (int row = 0; row < 3; ++row)
         put(instances_, ball.ball_from_view.row(row).transpose(), row == 0 ? shade.key : 0.0);
-    put(instances_, linear(look.color), static_cast<double>(ball_style(look.style)));
-    put(instances_, linear(look.second_color), 0);
+    put(instances_, linear_light(look.color), static_cast<double>(ball_style(look.style)));
+    put(instances_, linear_light(look.second_color), 0);
     put(instances_, shade.contact, shade.contact_strength);
     put(instances_, ball.sweep / ball.radius, bound.half_way.x());
     put(instances_, ball.turn, bound.half_way.y());

@@ -10,6 +10,10 @@ double linear_from_srgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
+Vec3 linear_light(const Color& c) {
+    return {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
+}
+
 const std::array<double, 256>& srgb_decoding() {
     static const std::array<double, 256> table = [] {
         std::array<double, 256> linear{};

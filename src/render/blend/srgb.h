@@ -5,10 +5,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/types.h"
+#include "scene/scene.h"
+
 namespace carom {
 
 /// sRGB in 0 ... 1 to linear.
 double linear_from_srgb(double encoded);
+/// Red, green, blue.
+Vec3 linear_light(const Color& color);
 
 /// Linear light of each code of 8 bits, 0 ... 1.
 const std::array<double, 256>& srgb_decoding();

@@ -2,14 +2,14 @@
 
 #include <limits>
 
+#include "core/infinity.h"
 #include "render/layers/pixel_rays.h"
 
 namespace carom {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
 bool within(const View& view, double x_px, double y_px) {
     return x_px >= 0 && y_px >= 0 && x_px < view.width_px() && y_px < view.height_px();
@@ -24,7 +24,7 @@ bool sky_hidden(const SeenScene& to, const Ray& ray, double x_px, double y_px) {
 
 Flow flow_of_sky(const SeenScene& from, const SeenScene& to, const Ray& ray, const Vec2& pixel) {
     const View& view = *to.view;
-    Flow flow{Vec2(kNaN, kNaN), true};
+    Flow flow{Vec2(kNowhere, kNowhere), true};
     if (from.view == to.view) {
         flow.way = Vec2::Zero();
     } else if (view.orthographic()) {
@@ -59,7 +59,7 @@ Flow optical_flow(const SeenScene& from, const SeenScene& to, const Ray& ray, co
         point = to.balls->sphere(seen.body).center + from_center;
     }
     const View::Projected there = view.project(point);
-    if (!view.orthographic() && !(there.depth_m > 0)) return {Vec2(kNaN, kNaN), true};
+    if (!view.orthographic() && !(there.depth_m > 0)) return {Vec2(kNowhere, kNowhere), true};
     // A point that stands before a camera that stands: nothing but rounding.
     const Vec2 way = stands ? Vec2(Vec2::Zero()) : Vec2(Vec2(there.x_px, there.y_px) - pixel);
     const Vec2 place = pixel + way;

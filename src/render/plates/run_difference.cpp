@@ -11,13 +11,13 @@ namespace carom {
 
 namespace {
 
-constexpr double kLettersPx = 14;    // at 720
-constexpr double kLinePitch = 1.45;  // of the letters
-constexpr double kSide = 0.75;       // between text and the plate's edges
-constexpr double kSwatch = 0.40;     // radius of a disc or ring, of the letters
-constexpr double kGap = 0.45;        // between a swatch and its text
-constexpr double kBetween = 1.2;     // between two parts of a line
-constexpr int kSamples = 240;        // instants that tell how wide the distance gets
+constexpr double kDifferencePx = 14;  // at 720
+constexpr double kLinePitch = 1.45;   // of the letters
+constexpr double kSide = 0.75;        // between text and the plate's edges
+constexpr double kSwatch = 0.40;      // radius of a disc or ring, of the letters
+constexpr double kGap = 0.45;         // between a swatch and its text
+constexpr double kBetween = 1.2;      // between two parts of a line
+constexpr int kSamples = 240;         // instants that tell how wide the distance gets
 
 }  // namespace
 
@@ -47,7 +47,7 @@ RunDifference::RunDifference(const Scene& first, const Motion& motion, const Sec
       pairs_(paired_balls(first, second.scene)),
       palette_(palette),
       ghost_(ghost_ink(first.overlay.theme)),
-      font_(letters_px(kLettersPx, height_px)) {
+      font_(letters_px(kDifferencePx, height_px)) {
     for (const BallPair& pair : pairs_) names_.push_back(label_text(first.balls[pair.first].name));
     constexpr double kShare = 0.4;  // of the picture's width, for paths in full
     std::vector<Line> lines = legend(false);

@@ -10,9 +10,9 @@ namespace carom {
 
 namespace {
 
-constexpr double kLinePitch = 1.35;    // of the letters
-constexpr double kPlateHeight = 1.75;  // of one line, as the clock's
-constexpr double kSide = 0.62;         // between text and the plate's edges
+constexpr double kTextLinePitch = 1.35;  // of the letters
+constexpr double kPlateHeight = 1.75;    // of one line, as the clock's
+constexpr double kTextSide = 0.62;       // between text and the plate's edges
 constexpr const char* kEllipsis = "\u2026";
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
@@ -146,7 +146,7 @@ TextElement::TextElement(const Request& request, int width_px, int height_px,
     const double wanted = letters_px(request.size_px, height_px);
     const double smallest = std::min(wanted, std::max(0.7 * wanted, kSmallestLetters));
     const auto height_of = [&](double size, std::size_t lines) {
-        return (kPlateHeight + kLinePitch * (static_cast<double>(lines) - 1)) * size;
+        return (kPlateHeight + kTextLinePitch * (static_cast<double>(lines) - 1)) * size;
     };
     // One line beside what is taken; the same with smaller letters; a few lines beside it if the
     // room is wide; then inside of it.
@@ -157,7 +157,7 @@ TextElement::TextElement(const Request& request, int width_px, int height_px,
     };
     constexpr double kShare = 1.0 / 3;  // of the picture's height
     const auto most = static_cast<std::size_t>(
-        std::max(1.0, 1 + (kShare * height_px / smallest - kPlateHeight) / kLinePitch));
+        std::max(1.0, 1 + (kShare * height_px / smallest - kPlateHeight) / kTextLinePitch));
     const Attempt attempts[] = {{wanted, true, 1},        {smallest, true, 1}, {wanted, false, 1},
                                 {0.85 * wanted, true, 2}, {wanted, false, 2},  {smallest, false, 3},
                                 {smallest, false, most}};
@@ -169,12 +169,12 @@ TextElement::TextElement(const Request& request, int width_px, int height_px,
         room = attempt.beside
                    ? room_beside(taken, width_px, height_px, border, depth, request.at_top)
                    : room_inside(taken, width_px, height_px, border, request.at_top);
-        const double text_px = room.width - 2 * kSide * font->size_px();
+        const double text_px = room.width - 2 * kTextSide * font->size_px();
         if (attempt.most_lines > 1 && attempt.beside && room.width < 0.4 * width_px) continue;
         lines_ = balanced_lines(*font, request.text, text_px);
         if (lines_.size() <= attempt.most_lines) break;
     }
-    const double size = font->size_px(), side = kSide * size;
+    const double size = font->size_px(), side = kTextSide * size;
     if (room.width - 2 * side < width_of(*font, kEllipsis)) return;
     cut(*font, lines_, most, room.width - 2 * side);
 
@@ -195,8 +195,8 @@ TextElement::TextElement(const Request& request, int width_px, int height_px,
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         const TextRun run = font->lay_out(lines_[i]);
         font->draw(canvas, run, 0.5 * (width - run.width_px),
-                   std::round(base + kLinePitch * size * static_cast<double>(i)), palette.ink, halo,
-                   palette.paper);
+                   std::round(base + kTextLinePitch * size * static_cast<double>(i)), palette.ink,
+                   halo, palette.paper);
     }
     canvas.finish();
 }

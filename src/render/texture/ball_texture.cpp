@@ -14,10 +14,6 @@ namespace {
 constexpr std::array<const char*, 7> kStyleNames = {
     "PLAIN", "STRIPED", "BASKETBALL", "VOLLEYBALL", "FOOTBALL", "TENNIS", "TABLE_TENNIS"};
 
-Vec3 linear(const Color& c) {
-    return {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
-}
-
 /// RGBA in linear light, row 0 first -> the picture.
 Image encoded(const std::vector<float>& pixels) {
     Image image(BallTextures::kWidth, BallTextures::kHeight);
@@ -48,8 +44,8 @@ Image BallTextures::draw(const Look& look) {
     sources.outputs = {"out_color"};
     GlProgram program(gl, sources);
     program.set("u_size", Vec2(kWidth, kHeight));
-    program.set("u_color", linear(look.color));
-    program.set("u_second", linear(look.second_color));
+    program.set("u_color", linear_light(look.color));
+    program.set("u_second", linear_light(look.second_color));
 
     const GlTexture texture = make_texture(gl, GL_RGBA16F, kWidth, kHeight, GL_RGBA, GL_FLOAT);
     const GlFramebuffer framebuffer = make_framebuffer(gl, "ball textures", {&texture});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/infinity.h"
 #include "geometry/feature.h"
 #include "geometry/feature_side.h"
 #include "geometry/gap_bound.h"
@@ -13,10 +14,8 @@ namespace carom {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Gaps of this fraction of the numbers that make them up are rounding.
-constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr double kPlaceRounding = 16 * std::numeric_limits<double>::epsilon();
 
 /// Rates of a gap below this fraction of the speed are rounding of a zero, as in the other files of
 /// times of impact.
@@ -161,8 +160,8 @@ class Advancement {
         l.bound = gap_bound(shape_, x, radius_);
         l.rate = l.bound.normal.dot(v);
         l.speed = v.norm();
-        l.place_rounding = kRounding * (course_.at(0).cwiseAbs().maxCoeff() +
-                                        x.cwiseAbs().maxCoeff() + l.speed * s + radius_);
+        l.place_rounding = kPlaceRounding * (course_.at(0).cwiseAbs().maxCoeff() +
+                                             x.cwiseAbs().maxCoeff() + l.speed * s + radius_);
         l.rounding = l.place_rounding;
         if (is_over_held(x)) {
             const Vec3 way = course_.way(s);

@@ -10,7 +10,7 @@ namespace {
 
 /// Boxes are wider than what is asked for by this part of their places and of the reach, well above
 /// all roundings of a path.
-constexpr double kRounding = 1e-9;
+constexpr double kBoundsRounding = 1e-9;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ int SurfaceTree::build(std::vector<int>::iterator begin, std::vector<int>::itera
 
 Box3 SurfaceTree::widened(const Box3& box, double reach) {
     const double places = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-    const Vec3 by = Vec3::Constant(reach + kRounding * (reach + places));
+    const Vec3 by = Vec3::Constant(reach + kBoundsRounding * (reach + places));
     return {box.min() - by, box.max() + by};
 }
 

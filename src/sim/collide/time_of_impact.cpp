@@ -18,7 +18,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// A crossing of one feature's gap counts if the whole body is as near then as that feature says.
 /// The bound is the rounding of a distance in the numbers that make it up, and no more: features
 /// join tangentially, so that the feature that is really met passes by far.
-constexpr double kRounding = 64 * kEpsilon;
+constexpr double kPathRounding = 64 * kEpsilon;
 
 /// |p|^2 - d^2 as if computed with twice the digits (T. Ogita, S. M. Rump, S. Oishi, "Accurate sum
 /// and dot product", SIAM J. Sci. Comput. 26, 2005, algorithm Dot2): the sign decides of grazing.
@@ -72,7 +72,7 @@ TimeOfImpact first(const Crossings& found) {
 }
 
 /// Rates below this are rounding of a zero.
-double still(const Path& p) { return kRounding * p.velocity.norm(); }
+double still(const Path& p) { return kPathRounding * p.velocity.norm(); }
 
 /// The earliest crossing of several features at which the whole body is really touched.
 class EarliestTouch {
@@ -108,7 +108,7 @@ class EarliestTouch {
         const double speed = (ball_.velocity + s * ball_.acceleration).norm();
         const double scale = ball_.position.cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() +
                              speed * s + radius_;
-        return nearest_on(shape_, center, radius_).gap <= gap_ + kRounding * scale;
+        return nearest_on(shape_, center, radius_).gap <= gap_ + kPathRounding * scale;
     }
 
     const Path& ball_;

@@ -14,10 +14,10 @@ namespace {
 
 /// A crossing of one feature's gap counts if the whole body is as near then, up to the rounding of
 /// a polynomial of high degree in places of this size.
-constexpr double kRounding = 1e-13;
+constexpr double kGapRounding = 1e-13;
 
 /// Rates of a gap below this fraction of the speed are rounding of a zero.
-constexpr double kStill = 2e-14;
+constexpr double kStillRate = 2e-14;
 
 /// Features whose gap is below this fraction of their size are those in contact.
 constexpr double kContact = 1e-9;
@@ -61,14 +61,14 @@ class FirstTouch {
         if (result_.state == ImpactState::kCapped) return;
         if (touching_ && std::abs(gap.c[0]) <= kContact * size * rate_scale) {
             const LongPolynomial whole = gap;
-            const double still = kStill * rate_scale * path_.reach();
+            const double still = kStillRate * rate_scale * path_.reach();
             gap = gap.divided_by_u();
             if (gap.c[0] <= still) {
                 gap = gap.divided_by_u();
                 if (std::abs(gap.c[0]) <= still && path_.flies) {
                     // Nothing moves or pulls it in yet: it is met once it is in by a rounding.
                     gap = whole;
-                    gap.c[0] = kRounding * size * rate_scale;
+                    gap.c[0] = kGapRounding * size * rate_scale;
                 } else if (gap.c[0] < 0) {
                     pressed_ |= holds;
                     return;
@@ -182,7 +182,7 @@ TimeOfImpact impact_with(const Shape& shape, const HighDegreePath& ball, double 
         const Vec3 center = ball.at(u);
         const double scale =
             ball.c[0].cwiseAbs().maxCoeff() + center.cwiseAbs().maxCoeff() + ball.reach() + radius;
-        return nearest_on(shape, center, radius).gap <= none + kRounding * scale;
+        return nearest_on(shape, center, radius).gap <= none + kGapRounding * scale;
     };
     offer_features(first, ball, radius, shape, touched);
     return first.result();

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 /// A roll that is slower than this part of the rim's speed is what rounding left of none.
-constexpr double kStill = 1e-13;
+constexpr double kStillRolling = 1e-13;
 
 /// (1 + k) R: the lever of rolling resistance, which makes its deceleration rolling N/m.
 double lever_of(const ResistedBall& ball) {
@@ -50,7 +50,8 @@ void resist(const Touch& contact, const StepImpulse& impulse, const ResistedBall
                           : Vec3((ball.velocities->spin - other->velocities->spin).cross(n));
     const double speed = roll.norm();
     // Taking all of it leaves a part of 1e-16, step by step, until products of it are no doubles.
-    if (!(laws.rolling > 0) || !(speed > kStill * ball.radius * ball.velocities->spin.norm()))
+    if (!(laws.rolling > 0) ||
+        !(speed > kStillRolling * ball.radius * ball.velocities->spin.norm()))
         return;
     const Vec3 along = roll / speed;
     const double grip = contact.friction * impulse.normal - std::abs(impulse.tangential.dot(along));

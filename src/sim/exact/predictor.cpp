@@ -16,7 +16,7 @@ namespace carom {
 namespace {
 
 /// An acceleration of this fraction of gravity is rounding.
-constexpr double kBalanced = 1e-11;
+constexpr double kLeavingBalance = 1e-11;
 
 /// Of two partners met at the same instant the first one counts: surfaces, then balls in order.
 bool comes_first(const Partner& a, const Partner& b) {
@@ -262,7 +262,7 @@ bool Predictor::rests_against(int ball, const Partner& partner, double now) cons
     if (notes_.separation_of(c, now) == nullptr) return false;
     Vec3 a = world_.ball(c.ball).piece.acceleration_at(now);
     if (!c.other.is_surface) a -= world_.ball(c.other.index).piece.acceleration_at(now);
-    return a.dot(c.normal) >= -kBalanced * world_.scene.simulation.gravity.norm();
+    return a.dot(c.normal) >= -kLeavingBalance * world_.scene.simulation.gravity.norm();
 }
 
 /// A ball in flight along a surface onto which nothing presses it: only rounding says so.

@@ -13,7 +13,7 @@ namespace {
 
 /// Two speeds that should be equal differ by rounding: an approach below this fraction of the
 /// balls' speeds is none. It matters where the threshold is 0, without gravity.
-constexpr double kSpeedRounding = 1e-13;
+constexpr double kStepSpeedRounding = 1e-13;
 
 /// A contact whose speed is this close to its target, relative to the correction speed, counts as
 /// tied with it, and its target is lowered by twice as much: 2e-8 m/s at a step of 1 ms.
@@ -68,7 +68,7 @@ void ContactSolver::add_joints(std::vector<Contact>& contacts,
                                const std::vector<Velocities>& before) {
     if (contacts.empty()) return;
     islands_.mark_lonely(contacts);
-    tie_speed_ = kTie * rules_.correction_speed + kSpeedRounding * largest_speed(before);
+    tie_speed_ = kTie * rules_.correction_speed + kStepSpeedRounding * largest_speed(before);
     feedback_.resize(contacts.size());  // before any joint points into it
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         prepare(contacts[i], before);
@@ -84,7 +84,7 @@ void ContactSolver::prepare(Contact& contact, const std::vector<Velocities>& bef
     const Vec3 relative = relative_velocity(contact, ball, other);
     contact.approach_speed = -relative.dot(contact.normal);
     contact.slip = tangential_part(relative, contact.normal);
-    const double rounding = kSpeedRounding * (ball.linear.norm() + other.linear.norm());
+    const double rounding = kStepSpeedRounding * (ball.linear.norm() + other.linear.norm());
     contact.impact = contact.approach_speed > rules_.impact_threshold + rounding;
     if (contact.impact) find_restitution(contact);
 }

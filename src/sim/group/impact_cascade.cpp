@@ -19,7 +19,7 @@ constexpr double kResolved = 1e-13;
 
 /// Approach speeds below this are rounding of the velocities that they are differences of, relative
 /// to the largest of those.
-constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr double kCascadeRounding = 4 * std::numeric_limits<double>::epsilon();
 
 /// Rounds of any cluster, and for each contact as a multiple of the root of the mass ratio.
 constexpr double kRounds = 2000;
@@ -109,7 +109,8 @@ void ImpactCascade::resolve_single(std::vector<Contact>& impacts, const Limits& 
     Contact& contact = cluster_.contacts().front();
     first_approach_ = cluster_.approach(contact);
     contact.separation_speed = -first_approach_;
-    if (!(first_approach_ > std::max(kRounding * cluster_.largest_speed(), limits.enough))) return;
+    if (!(first_approach_ > std::max(kCascadeRounding * cluster_.largest_speed(), limits.enough)))
+        return;
     solver_contacts_.assign(1, under_own_numbers(contact));
     solver_.solve(cluster_.bodies(), solver_contacts_, cluster_.time());
     const SolverContact& solved = solver_contacts_.front();
@@ -165,8 +166,9 @@ void ImpactCascade::resolve(std::vector<Contact>& impacts, const Limits& limits)
     for (std::size_t round = 0;; ++round) {
         const double largest = *std::max_element(speeds_.begin(), speeds_.end());
         if (round == 0) first_approach_ = largest;
-        const double enough = std::max({std::max(kResolved, limits.slow) * first_approach_,
-                                        kRounding * cluster_.largest_speed(), limits.enough});
+        const double enough =
+            std::max({std::max(kResolved, limits.slow) * first_approach_,
+                      kCascadeRounding * cluster_.largest_speed(), limits.enough});
         if (!(largest > enough)) break;
         const bool last = round > rounds + cluster_.contacts().size();
         if (last && limits.enough > 0) {

@@ -16,10 +16,10 @@ namespace {
 constexpr int kSweeps = 8;
 
 /// Part of an overlap that one sweep takes away: several contacts push a ball at once.
-constexpr double kRelaxation = 0.5;
+constexpr double kIslandRelaxation = 0.5;
 
 /// Overlaps up to this fraction of the smaller radius stay, so that resting balls do not move.
-constexpr double kSlop = 1e-9;
+constexpr double kIslandSlop = 1e-9;
 
 /// What moving overlapping balls apart may take of the kinetic energy: they go on moving.
 constexpr double kLiftPart = 0.5;
@@ -119,9 +119,9 @@ bool IslandStep::part_overlaps() {
                 radius = std::min(radius, world_.ball(c.other.index).radius);
                 theirs = inverse_mass(world_, c.other.index);
             }
-            if (nearest.gap >= -kSlop * radius) continue;
+            if (nearest.gap >= -kIslandSlop * radius) continue;
             moved = true;
-            const Vec3 apart = -kRelaxation * nearest.gap / (ours + theirs) * nearest.normal;
+            const Vec3 apart = -kIslandRelaxation * nearest.gap / (ours + theirs) * nearest.normal;
             push[index_of(c.ball)] += ours * apart;
             if (!c.other.is_surface) push[index_of(c.other.index)] -= theirs * apart;
         }
@@ -183,7 +183,7 @@ void IslandStep::stop_approaches(IslandSolver& solver) {
     bool approaches = false;
     for (SolverContact& c : local) {
         const double overlap = c.depth - 0.5 * seconds_ * normal_speed(c, meeting);
-        if (normal_speed(c, meeting) >= 0 || overlap <= kSlop * c.arm.norm()) continue;
+        if (normal_speed(c, meeting) >= 0 || overlap <= kIslandSlop * c.arm.norm()) continue;
         approaches = true;
         c.depth = 0;
     }

@@ -36,10 +36,10 @@ constexpr double kNudge = 0.25;
 
 /// Sweeps that move overlapping balls apart, and the part of an overlap that one takes away.
 constexpr int kOverlapSweeps = 3;
-constexpr double kRelaxation = 0.4;
+constexpr double kPileRelaxation = 0.4;
 
 /// Overlaps up to this fraction of the smallest radius stay, so that resting balls do not move.
-constexpr double kSlop = 1e-5;
+constexpr double kPileSlop = 1e-5;
 
 /// What parting overlaps may take of the energy that the step loses: it never gains.
 constexpr double kOverlapBudget = 0.5;
@@ -300,11 +300,11 @@ double PileStep::part_pair(const PilePair& pair) {
     const double its = other == nullptr ? 0 : balls_.body(pair.other.index).inverse_mass;
     const Vec3 apart = other == nullptr ? shift : Vec3(shift - *other);
     const double gap = pair.gap + apart.dot(pair.normal);
-    if (gap >= -kSlop * balls_.smallest_radius()) return 0;
-    const Vec3 push = -kRelaxation * gap / (mine + its) * pair.normal;
+    if (gap >= -kPileSlop * balls_.smallest_radius()) return 0;
+    const Vec3 push = -kPileRelaxation * gap / (mine + its) * pair.normal;
     shift += mine * push;
     if (other != nullptr) *other -= its * push;
-    return -kRelaxation * gap;
+    return -kPileRelaxation * gap;
 }
 
 /// Moves overlapping balls apart at the step's start, as far as the energy lifts them that impacts

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/infinity.h"
 #include "sim/integrate/piece_integrator.h"
 #include "sim/law/contact_modes.h"
 
 namespace carom {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The first piece of a slip is no longer than so many of its times: explicit steps are.
 constexpr double kFirstPiece = 20;

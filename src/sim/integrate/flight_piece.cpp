@@ -20,7 +20,7 @@ using Weights = std::array<std::array<double, kNodes>, kNodes>;
 constexpr double kPlaceError = 3e-14, kSpeedError = 1e-13;
 
 /// Picard's iteration has ended when accelerations change by less than this part.
-constexpr double kSettled = 4e-16, kRounding = 1e-14;
+constexpr double kSettled = 4e-16, kPieceRounding = 1e-14;
 constexpr int kMostRounds = 24;
 
 constexpr int kMostTries = 60;
@@ -124,7 +124,8 @@ class Collocation {
             // The next round would change as much less as this one did than the one before.
             if (change * change <= kSettled * kSettled * size * std::min(before, size)) return true;
             // Changes that do not fall any more are rounding where they are small.
-            if (round > 3 && change > before) return change <= kRounding * kRounding * size;
+            if (round > 3 && change > before)
+                return change <= kPieceRounding * kPieceRounding * size;
             before = change;
         }
         return false;

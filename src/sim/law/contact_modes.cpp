@@ -10,9 +10,9 @@ namespace carom {
 namespace {
 
 /// Forces and accelerations are known to this fraction of the weight and of gravity.
-constexpr double kRounding = 1e-12;
+constexpr double kModeRounding = 1e-12;
 
-/// An idle contact's gap may open or shut at this fraction of gravity: more than kRounding.
+/// An idle contact's gap may open or shut at this fraction of gravity: more than kModeRounding.
 constexpr double kIdle = 3e-12;
 
 /// A slip is the difference of speeds, which leaves so much of them.
@@ -23,7 +23,7 @@ bool bears_nothing(const CoupledContacts& system, const CoupledState& state, std
     CoupledContacts without = system;
     without.contacts[contact].presses = false;
     const CoupledForces f = coupled_forces(without, state);
-    return f.contacts[contact].departure >= -kRounding * system.gravity.norm();
+    return f.contacts[contact].departure >= -kModeRounding * system.gravity.norm();
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ bool choose_modes(CoupledContacts& system, CoupledState& state) {
                 c.presses = false;
                 changed = true;
             } else if (c.mode == ContactMode::kRolling &&
-                       grip_left(c, f.contacts[i]) < -kRounding * system.weight_at(c)) {
+                       grip_left(c, f.contacts[i]) < -kModeRounding * system.weight_at(c)) {
                 if (bears_nothing(system, state, i))
                     c.presses = false;
                 else if (!begin_slip(system, state, i))
@@ -112,7 +112,7 @@ bool choose_modes(CoupledContacts& system, CoupledState& state) {
         if (changed) continue;
         for (std::size_t i = 0; i < system.contact_count; ++i)
             if (!system.contacts[i].presses &&
-                f.contacts[i].departure < -kRounding * system.gravity.norm())
+                f.contacts[i].departure < -kModeRounding * system.gravity.norm())
                 return false;
         return true;
     }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/check.h"
+#include "core/infinity.h"
 #include "geometry/feature.h"
 #include "geometry/feature_side.h"
 #include "sim/integrate/flight_piece.h"
@@ -15,8 +15,6 @@
 namespace carom {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// s, of a piece of a flight through air: what is tried first, and the longest.
 constexpr double kFirstFlight = 0.1, kLongestFlight = 10;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kStillSeconds = 2;
 
 /// At rest gravity sets nothing in motion but roundings, as fractions of g and of the speeds.
-constexpr double kBalanced = 1e-12;
+constexpr double kCoupledBalance = 1e-12;
 
 /// Integrated velocities leave this fraction of the speeds of a 0.
 constexpr double kRoundingSpeed = 1e-11;
@@ -26,7 +26,7 @@ constexpr double kRoundingSpeed = 1e-11;
 /// An island whose laws change all the time, as between balls that are being poured, is stepped for
 /// a while: so many pieces are shorter than a step, and none between them has lasted for one. What
 /// was to last longer, and was cut at once by an impact, tells nothing.
-constexpr int kMostShortPieces = 60;
+constexpr int kMostCoupledShortPieces = 60;
 constexpr double kRestlessSeconds = 0.25;
 
 /// All contacts and their modes as one number.
@@ -42,8 +42,8 @@ std::uint64_t modes_of(const CoupledContacts& system) {
 
 bool is_still(const CoupledContacts& system, const CoupledState& state,
               const CoupledForces& forces) {
-    const double speed = kBalanced * speed_of(system, {});
-    const double pull = kBalanced * system.gravity.norm();
+    const double speed = kCoupledBalance * speed_of(system, {});
+    const double pull = kCoupledBalance * system.gravity.norm();
     for (std::size_t b = 0; b < system.ball_count; ++b)
         if (state[b].v.norm() > speed || forces.acceleration[b].norm() > pull ||
             system.balls[b].radius * forces.spin_rate[b].norm() > pull)
@@ -246,7 +246,7 @@ CoupledPiece CoupledIslands::piece_of(int first_ball, double now, CoupledIsland&
     guess.begun = now;
     guess.lasts = piece.seconds;
     if (piece.seconds < kIslandStep) ++guess.short_pieces;
-    if (guess.short_pieces > kMostShortPieces) {
+    if (guess.short_pieces > kMostCoupledShortPieces) {
         guess.short_pieces = 0;
         guess.stepped_until = now + kRestlessSeconds;
         ++log_.report.given_up;

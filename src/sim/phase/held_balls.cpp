@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/infinity.h"
 #include "sim/group/island_step.h"
 #include "sim/world/seams.h"
 
@@ -11,10 +11,8 @@ namespace carom {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Gravity along the surface counts as none below this fraction: a few roundings.
-constexpr double kBalanced = 1e-14;
+constexpr double kHeldBalance = 1e-14;
 
 /// A ball in a hole that is too small for it sits there once it is slower than this part of
 /// sqrt(g r): the bounces between the hole's sides that are left have no end.
@@ -207,7 +205,7 @@ HeldBalls::Handover HeldBalls::begin_integrated_on(int ball, double now, const C
     const bool still = phase.state.v.isZero(0) && phase.mode != ContactMode::kSliding;
     const bool held = still && phase.mode == ContactMode::kRolling && !phase.contact.roll_begins &&
                       holds_still(phase.contact, forces);
-    const bool rests = seated || held || (still && pull.norm() <= kBalanced * gravity.norm());
+    const bool rests = seated || held || (still && pull.norm() <= kHeldBalance * gravity.norm());
     set_pivot(phase);
     forms_.hold(ball, now, Phase::kIntegrated, contact.other.index, forces.normal,
                 rests ? EventKind::kRest : kind_of(phase.mode), onset);

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "core/infinity.h"
 #include "sim/group/island_step.h"
 #include "sim/world/seams.h"
 
 namespace carom {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Links that one impact can pass through at once, by Newton's law. What is left beyond them is
 /// solved by the next step, without rebound.

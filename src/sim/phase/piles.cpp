@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/infinity.h"
+
 namespace carom {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A ball that has so many impacts within so many seconds, among so many others, joins a pile:
 /// from there on a step costs less than the impacts that it stands for.
@@ -20,8 +20,8 @@ constexpr double kTogether = 0.2;
 
 /// A ball of a pile rests when it has been slower than this fraction of the speed that gravity
 /// gives in the longest step, for so many seconds: what sets it in motion is below 4e-4 g.
-constexpr double kCalmFraction = 1e-2;
-constexpr double kCalmSeconds = 0.05;
+constexpr double kPileCalmFraction = 1e-2;
+constexpr double kPileCalmSeconds = 0.05;
 
 /// A ball leaves when for so many steps nothing has been near, or nothing but one flat surface.
 constexpr int kStepsAlone = 4, kStepsOnSurface = 16;
@@ -114,13 +114,13 @@ bool Piles::leave(int ball, double now) {
     PileBall& c = pile_.balls().of(ball);
     const Velocities velocities = c.started;
     if (c.near <= 1 && leaves_alone(ball, now, velocities)) return true;
-    const double calm = kCalmFraction * 0.5 * pile_.rules().slow_speed(),
+    const double calm = kPileCalmFraction * 0.5 * pile_.rules().slow_speed(),
                  r = world_.ball(ball).radius;
     const bool is_calm =
         c.started.linear.norm() < calm && c.after.linear.norm() < calm &&
         (r * c.after.spin.norm() < calm || r * (c.after.spin - c.started.spin).norm() < 0.1 * calm);
     c.calm_seconds = is_calm && c.pushed ? c.calm_seconds + pile_.seconds() : 0;
-    if (c.calm_seconds < kCalmSeconds) return false;
+    if (c.calm_seconds < kPileCalmSeconds) return false;
     lay_to_sleep(ball, now, calm);
     return true;
 }
@@ -200,7 +200,7 @@ void Piles::state_pair(PilePair& pair, double now) {
     if (!(pair.force > 0)) return;
     const EventKind kind = kind_of_slip(pair.slip, 0.1 * pile_.rules().slow_speed());
     if (pair.kind.stated() == EventKind::kRest && kind == EventKind::kRoll &&
-        pair.slip < kCalmFraction * pile_.rules().slow_speed())
+        pair.slip < kPileCalmFraction * pile_.rules().slow_speed())
         return;
     if (!pair.kind.persists(kind, now, kind_steps::kPile)) return;
     if (pair.kind.state(kind)) log_.add(event_of(pair, kind, now));

@@ -19,7 +19,7 @@ constexpr int kMostSweeps = 20'000;
 constexpr double kConverged = 4 * std::numeric_limits<double>::epsilon();
 
 /// So does one whose changes are roundings of the velocities: relative to the largest of those.
-constexpr double kSpeedRounding = 2 * std::numeric_limits<double>::epsilon();
+constexpr double kSweepSpeedRounding = 2 * std::numeric_limits<double>::epsilon();
 
 /// Below this changes may be roundings, larger where masses are far apart, that go round in
 /// circles: then so many sweeps without a smaller one end it.
@@ -88,7 +88,7 @@ void solve_by_gauss_seidel(std::vector<ImpactBody>& bodies, std::vector<SolverCo
     LazyRows rows(bodies, contacts);
     double scale = 0;
     for (const SolverContact& c : contacts) scale = std::max(scale, std::abs(c.approach_speed));
-    const double rounding = kSpeedRounding * fastest_centre(bodies);
+    const double rounding = kSweepSpeedRounding * fastest_centre(bodies);
     double least = std::numeric_limits<double>::infinity();
     int idle = 0;
     gauss_seidel(rows, SweepOrder::kForward, kMostSweeps, [&](double moved) {

@@ -34,7 +34,7 @@ constexpr std::size_t kMostForOde = 100;
 constexpr double kWrong = 1e-11;
 
 /// What the velocities lose of relative speeds by their own rounding, relative to the largest.
-constexpr double kSpeedRounding = 64 * std::numeric_limits<double>::epsilon();
+constexpr double kImpactSpeedRounding = 64 * std::numeric_limits<double>::epsilon();
 
 Velocities other_velocities(const SolverContact& c, const std::vector<ImpactBody>& bodies) {
     return c.on_surface() ? Velocities{}
@@ -56,8 +56,8 @@ bool is_solved(const std::vector<ImpactBody>& before, const std::vector<ImpactBo
                const std::vector<SolverContact>& contacts) {
     double largest = 0;
     for (const SolverContact& c : contacts) largest = std::max(largest, c.approach_speed);
-    const double wrong =
-        std::max(kWrong * largest, kSpeedRounding * std::max(fastest_centre(before), largest));
+    const double wrong = std::max(kWrong * largest,
+                                  kImpactSpeedRounding * std::max(fastest_centre(before), largest));
     for (const SolverContact& c : contacts) {
         const Vec3 relative = relative_velocity(
             c, after[static_cast<std::size_t>(c.body)].velocities, other_velocities(c, after));

@@ -22,7 +22,7 @@ constexpr std::size_t kManyContacts = 24;
 constexpr double kTie = 1e-6;
 
 /// Speeds that differ by this fraction of the balls' speeds are equal.
-constexpr double kSpeedRounding = 1e-13;
+constexpr double kIslandSpeedRounding = 1e-13;
 
 Vec3 relative_of(const SolverContact& c, const std::vector<ImpactBody>& bodies) {
     const Velocities other =
@@ -113,7 +113,8 @@ void IslandSolver::step(std::vector<ImpactBody>& bodies, std::vector<SolverConta
     world_->target.resize(contacts.size());
     world_->axis.resize(contacts.size());
     world_->slides.resize(contacts.size());
-    const double tie = kTie * gravity.norm() * seconds + kSpeedRounding * largest_speed(bodies);
+    const double tie =
+        kTie * gravity.norm() * seconds + kIslandSpeedRounding * largest_speed(bodies);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         SolverContact& c = contacts[i];
         const Vec3 relative = relative_of(c, bodies);

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 /// A rise by this fraction of the energy is rounding.
-constexpr double kRounding = 1e-14;
+constexpr double kEnergyRounding = 1e-14;
 
 }  // namespace
 
@@ -58,7 +58,7 @@ double EnergyAccount::lift(std::span<const Vec3> from, std::span<const Vec3> to)
 bool EnergyAccount::can_pay(double excess, std::span<const Velocities> velocities) const {
     double fall = 0;
     for (const Body& b : bodies_) fall += b.mass * b.pull.norm() * b.radius;
-    return excess <= kinetic(velocities) + kRounding * fall;
+    return excess <= kinetic(velocities) + kEnergyRounding * fall;
 }
 
 bool EnergyAccount::take_away(double excess, std::span<Velocities> velocities) const {
@@ -70,7 +70,7 @@ bool EnergyAccount::take_away(double excess, std::span<Velocities> velocities) c
     }
     centre /= total_mass;
     const double all = kinetic(velocities);
-    if (excess <= kRounding * all) return false;
+    if (excess <= kEnergyRounding * all) return false;
     double relative = all - 0.5 * total_mass * centre.squaredNorm();
     if (!(relative > 2 * excess)) {
         centre.setZero();

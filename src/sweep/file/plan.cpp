@@ -12,14 +12,14 @@ namespace {
 /// A product that stops growing where nobody can mean it.
 std::int64_t grid_size(const Sweep& sweep) {
     double size = 1;
-    for (const Axis& axis : sweep.axes) size *= static_cast<double>(axis.draw.levels());
+    for (const SweepAxis& axis : sweep.axes) size *= static_cast<double>(axis.draw.levels());
     constexpr double kMost = 1e15;
     return static_cast<std::int64_t>(std::min(size, kMost));
 }
 
 std::int64_t longest(const Sweep& sweep) {
     std::int64_t most = 1;
-    for (const Axis& axis : sweep.axes) most = std::max(most, axis.draw.levels());
+    for (const SweepAxis& axis : sweep.axes) most = std::max(most, axis.draw.levels());
     return most;
 }
 
@@ -64,7 +64,7 @@ void check_mode(const Sweep& sweep, const Node& root, Report& report) {
                                         "lhs takes runs times axes up to {}; mode random any",
                                         sweep.count, axes, kMostShuffled));
     if (counted) {
-        for (const Axis& axis : sweep.axes)
+        for (const SweepAxis& axis : sweep.axes)
             if (axis.draw.is_random() && axis.draw.levels() > 1)
                 report.error_in_source(axis.origin.source, axis.origin.mark,
                                        fmt::format("'draws' of {} is for the modes grid and zip; "
@@ -73,7 +73,7 @@ void check_mode(const Sweep& sweep, const Node& root, Report& report) {
         return;
     }
     if (sweep.mode == SweepMode::kZip)
-        for (const Axis& axis : sweep.axes)
+        for (const SweepAxis& axis : sweep.axes)
             if (axis.draw.levels() != 1 && axis.draw.levels() != longest(sweep))
                 report.error_in_source(
                     axis.origin.source, axis.origin.mark,
@@ -91,18 +91,18 @@ Plan::Plan(const Sweep& sweep) : sweep_(sweep), count_(count_of(sweep)) {
         for (std::size_t i = sweep.axes.size(); i-- > 1;)
             strides_[i - 1] = strides_[i] * sweep.axes[i].draw.levels();
     if (sweep.mode == SweepMode::kLhs)
-        for (const Axis& axis : sweep.axes)
+        for (const SweepAxis& axis : sweep.axes)
             permutations_.push_back(permutation(sweep.seed, axis.path, count_));
 }
 
 Node Plan::level(std::size_t axis, std::int64_t index) const {
-    const Axis& one = sweep_.axes[axis];
+    const SweepAxis& one = sweep_.axes[axis];
     if (!one.draw.is_random()) return one.draw.level(index);
     return one.draw.at(drawn_number(sweep_.seed, one.path, index));
 }
 
 Node Plan::value(std::size_t axis, std::int64_t run) const {
-    const Axis& one = sweep_.axes[axis];
+    const SweepAxis& one = sweep_.axes[axis];
     const std::int64_t levels = one.draw.levels();
     switch (sweep_.mode) {
         case SweepMode::kGrid:

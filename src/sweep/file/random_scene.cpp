@@ -173,7 +173,7 @@ Node& list_of_balls(Node& root, const ValueOrigin& origin) {
 std::vector<Node> values_of(const Sweep& sweep, const RandomBalls& group, const std::string& what,
                             std::int64_t run, std::int64_t index) {
     std::vector<Node> values;
-    for (const Axis& one : group.each)
+    for (const SweepAxis& one : group.each)
         values.push_back(one.draw.at(drawn_number(sweep.seed, what + one.path, run, index)));
     return values;
 }

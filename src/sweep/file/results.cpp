@@ -33,13 +33,13 @@ template <auto Member>
 double of_name_and_number(void* subject, const char* name, double number) {
     return run_of(subject) == nullptr ? 0 : (run_of(subject)->*Member)(name, number);
 }
-template <int Axis>
+template <int SweepAxis>
 double coordinate(void* subject, const char* name, double t) {
-    return run_of(subject) == nullptr ? 0 : run_of(subject)->coordinate(name, Axis, t);
+    return run_of(subject) == nullptr ? 0 : run_of(subject)->coordinate(name, SweepAxis, t);
 }
-template <int Axis>
+template <int SweepAxis>
 double velocity(void* subject, const char* name, double t) {
-    return run_of(subject) == nullptr ? 0 : run_of(subject)->velocity(name, Axis, t);
+    return run_of(subject) == nullptr ? 0 : run_of(subject)->velocity(name, SweepAxis, t);
 }
 template <EventKind Kind>
 double begin_of(void* subject, const char* name) {

@@ -48,7 +48,7 @@ Report report_of(const Sweep& sweep) {
     return report;
 }
 
-void check_axis(const Sweep& sweep, const Axis& axis, Findings& findings) {
+void check_axis(const Sweep& sweep, const SweepAxis& axis, Findings& findings) {
     for (const Node& value : samples(axis.draw)) {
         Report report = report_of(sweep);
         Node root = sweep.base;
@@ -61,7 +61,7 @@ void check_axis(const Sweep& sweep, const Axis& axis, Findings& findings) {
 /// A group's balls, at a place that stands for any.
 void check_group(const Sweep& sweep, const RandomBalls& group, Findings& findings) {
     std::vector<Node> middle;
-    for (const Axis& one : group.each) middle.push_back(one.draw.at(0.5));
+    for (const SweepAxis& one : group.each) middle.push_back(one.draw.at(0.5));
     for (std::size_t i = 0; i < group.each.size(); ++i)
         for (const Node& value : samples(group.each[i].draw)) {
             Report report = report_of(sweep);
@@ -78,7 +78,7 @@ void check_group(const Sweep& sweep, const RandomBalls& group, Findings& finding
 
 void check_axes(const Sweep& sweep, Diagnostics& diagnostics) {
     Findings findings(diagnostics);
-    for (const Axis& axis : sweep.axes) check_axis(sweep, axis, findings);
+    for (const SweepAxis& axis : sweep.axes) check_axis(sweep, axis, findings);
     for (const RandomBalls& group : sweep.balls) check_group(sweep, group, findings);
     Report report = report_of(sweep);
     Node root = sweep.base;
@@ -96,7 +96,7 @@ void check_names_of_results(const Sweep& sweep, const Scene& base, const Node& r
     const Node* results = root.find("results");
     if (results == nullptr) return;
     std::vector<std::string> columns = {"run", "motion_hash", "status", "reason"};
-    for (const Axis& axis : sweep.axes) columns.push_back(axis.path);
+    for (const SweepAxis& axis : sweep.axes) columns.push_back(axis.path);
     for (const Node& one : results->children) {
         if (std::ranges::find(columns, one.key) != columns.end())
             diagnostics.add({Severity::kError, path, one.key_mark,

@@ -60,8 +60,8 @@ class SweepReader {
     }
 
   private:
-    std::vector<Axis> read_axes(const Node& map, bool list_is_value) {
-        std::vector<Axis> axes;
+    std::vector<SweepAxis> read_axes(const Node& map, bool list_is_value) {
+        std::vector<SweepAxis> axes;
         for (const Node& node : map.children) {
             std::optional<Draw> draw = Draw::read(node, list_is_value, table_, report_);
             if (draw) axes.push_back({node.key, std::move(*draw), {kSweepSource, node.key_mark}});
@@ -146,7 +146,7 @@ class SweepReader {
 
     void check_each(const RandomBalls& group, const Node& each) {
         bool sized = false;
-        for (const Axis& one : group.each) {
+        for (const SweepAxis& one : group.each) {
             const std::string key = one.path.substr(0, one.path.find_first_of(".["));
             sized = sized || key == "radius" || key == "preset";
             for (const char* taken : {"name", "position", "drop_height", "at", "repeat"})

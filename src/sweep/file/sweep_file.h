@@ -20,7 +20,7 @@ namespace carom {
 enum class SweepMode { kGrid, kZip, kLhs, kRandom };
 
 /// One path that differs between runs.
-struct Axis {
+struct SweepAxis {
     std::string path;
     Draw draw;
     ValueOrigin origin;
@@ -45,7 +45,7 @@ struct RandomBalls {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< m, of the region
     double gap = 0;                                ///< m
     int attempts = 0;
-    std::vector<Axis> each;
+    std::vector<SweepAxis> each;
     ValueOrigin origin;
 };
 
@@ -67,7 +67,7 @@ struct Sweep {
     std::string base_file, base_text;
     Node base;  ///< with the overrides in it
     KeyTable scene_keys;
-    std::vector<Axis> axes;
+    std::vector<SweepAxis> axes;
     SweepMode mode = SweepMode::kGrid;
     std::int64_t count = 0;  ///< of lhs and random
     std::uint64_t seed = 0;

@@ -30,7 +30,7 @@ std::string field(const std::string& text) {
 
 std::string header(const Sweep& sweep) {
     std::string row = "run";
-    for (const Axis& axis : sweep.axes) row += "," + field(axis.path);
+    for (const SweepAxis& axis : sweep.axes) row += "," + field(axis.path);
     for (const ResultSpec& result : sweep.results) row += "," + field(result.name);
     return row + ",motion_hash,status,reason\n";
 }
@@ -139,7 +139,7 @@ IndexCounts write_index(const Sweep& sweep, const Plan& plan, const std::string&
         if (row.record.status == RunStatus::kDone) sums.add(row.record);
     });
     Json axes = Json::array(), results = Json::array();
-    for (const Axis& axis : sweep.axes) axes.push_back(axis.path);
+    for (const SweepAxis& axis : sweep.axes) axes.push_back(axis.path);
     for (const ResultSpec& result : sweep.results) results.push_back(result.name);
     Json dataset = {{"carom", 1},
                     {"seed", sweep.seed},

@@ -1,0 +1,10 @@
+// The double that is greater than all numbers.
+#pragma once
+
+#include <limits>
+
+namespace carom {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace carom
