@@ -24,6 +24,7 @@ class ByCMake(build_ext):
         if not (build / "CMakeCache.txt").exists():
             subprocess.run(["cmake", "-S", ROOT, "-B", build, *(["-G", "Ninja"] if shutil.which("ninja") else []),
                             "-DCMAKE_BUILD_TYPE=Release", "-DCAROM_BUILD_PYTHON=ON", "-DCAROM_PRECOMPILE=ON",
+                            "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=12",
                             f"-DPython3_EXECUTABLE={sys.executable}", f"-DPYTHON_EXECUTABLE={sys.executable}"],
                            check=True)
         subprocess.run(["cmake", "--build", build, "--target", "carom_python", "--parallel"], check=True)

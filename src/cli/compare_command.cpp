@@ -56,15 +56,15 @@ Kind kind_of(const std::string& path) {
         throw Failure(FailureKind::kInput, fmt::format("{}: no such file or folder", path));
     const FileContent content = file_content(path);
     switch (content.kind) {
-        case FileKind::kPng:
+        case PictureFileKind::kPng:
             return Kind::kPicture;
-        case FileKind::kOtherPicture:
+        case PictureFileKind::kOtherPicture:
             refuse_picture(path, content);
-        case FileKind::kLfsPointer:
+        case PictureFileKind::kLfsPointer:
             throw Failure(FailureKind::kInput, fmt::format("{}: {}", path, kLfsAdvice));
-        case FileKind::kEmpty:
+        case PictureFileKind::kEmpty:
             throw Failure(FailureKind::kInput, fmt::format("{} is empty", path));
-        case FileKind::kOther:
+        case PictureFileKind::kOther:
             break;
     }
     return Kind::kFilm;
@@ -77,11 +77,12 @@ std::set<std::string> png_names(const std::string& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (!entry.is_regular_file()) continue;
         const FileContent content = file_content(entry.path().string());
-        if (content.kind == FileKind::kOtherPicture) refuse_picture(entry.path().string(), content);
+        if (content.kind == PictureFileKind::kOtherPicture)
+            refuse_picture(entry.path().string(), content);
         std::string extension = entry.path().extension().string();
         std::transform(extension.begin(), extension.end(), extension.begin(),
                        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        if (content.kind == FileKind::kPng || extension == ".png")
+        if (content.kind == PictureFileKind::kPng || extension == ".png")
             names.insert(entry.path().filename().string());
     }
     if (names.empty())

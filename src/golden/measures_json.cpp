@@ -7,14 +7,16 @@ namespace carom {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// JSON has no infinity.
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+OrderedJson finite_or_null(double value) {
+    return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
+}
 
 }  // namespace
 
-void put_measures(Json& json, const ImageMeasures& m) {
+void put_measures(OrderedJson& json, const ImageMeasures& m) {
     json["same_size"] = m.same_size;
     json["largest"] = m.largest;
     json["differing_pixels"] = m.differing;
@@ -25,7 +27,7 @@ void put_measures(Json& json, const ImageMeasures& m) {
     json["ssim"] = m.ssim;
 }
 
-Json limits_json(const ImageTolerance& limits) {
+OrderedJson limits_json(const ImageTolerance& limits) {
     return {{"tolerance", limits.channel}, {"max_differing", limits.differing}};
 }
 

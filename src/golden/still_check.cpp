@@ -141,7 +141,7 @@ StillCheck check_still(const DrawnStill& still, const Image& drawn, const Golden
         const std::string bytes = file_bytes(still.golden);
         check.golden_checksum = checksum_text(bytes);
         try {
-            if (file_content(still.golden).kind == FileKind::kLfsPointer)
+            if (file_content(still.golden).kind == PictureFileKind::kLfsPointer)
                 throw Failure(FailureKind::kInput, kLfsAdvice);
             const AnyImage golden = read_any_png(still.golden);
             const bool same_renderer = text_in_png(bytes, kRenderer) == still.renderer;

@@ -65,14 +65,15 @@ bool is_animated(std::string_view png) {
 }
 
 FileContent content_of(std::string_view bytes) {
-    if (bytes.empty()) return {FileKind::kEmpty};
-    if (bytes.starts_with("version https://git-lfs")) return {FileKind::kLfsPointer};
-    if (bytes.starts_with(kPng)) return {is_animated(bytes) ? FileKind::kOther : FileKind::kPng};
+    if (bytes.empty()) return {PictureFileKind::kEmpty};
+    if (bytes.starts_with("version https://git-lfs")) return {PictureFileKind::kLfsPointer};
+    if (bytes.starts_with(kPng))
+        return {is_animated(bytes) ? PictureFileKind::kOther : PictureFileKind::kPng};
     for (const Signature& signature : kPictures)
         if (bytes.starts_with(signature.start) && bytes.size() >= signature.at &&
             bytes.substr(signature.at).starts_with(signature.inner))
-            return {FileKind::kOtherPicture, signature.name};
-    return {FileKind::kOther};
+            return {PictureFileKind::kOtherPicture, signature.name};
+    return {PictureFileKind::kOther};
 }
 
 struct CloseFile {
@@ -86,7 +87,8 @@ FileContent file_content(const std::string& path) {
     // What is read from a pipe is gone from it: there the name has to do.
     if (fs::exists(path, error) && !fs::is_regular_file(path, error) &&
         !fs::is_directory(path, error))
-        return {fs::path(path).extension() == ".png" ? FileKind::kPng : FileKind::kOther};
+        return {fs::path(path).extension() == ".png" ? PictureFileKind::kPng
+                                                     : PictureFileKind::kOther};
     const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rbe"));
     std::array<char, 4096> bytes{};
     std::size_t size = 0;

@@ -5,7 +5,7 @@
 
 namespace carom {
 
-enum class FileKind {
+enum class PictureFileKind {
     kPng,           ///< one picture
     kOtherPicture,  ///< a still picture that carom does not read; `name` says which
     kLfsPointer,    ///< what Git LFS leaves in place of a file that was not fetched
@@ -14,7 +14,7 @@ enum class FileKind {
 };
 
 struct FileContent {
-    FileKind kind = FileKind::kOther;
+    PictureFileKind kind = PictureFileKind::kOther;
     const char* name = "";  ///< "JPEG", "BMP" ...: of a picture
 };
 

@@ -13,7 +13,9 @@ namespace carom {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& text) { throw Failure(FailureKind::kInput, text); }
+[[noreturn]] void refuse_choice(const std::string& text) {
+    throw Failure(FailureKind::kInput, text);
+}
 
 /// ", did you mean 'x'?", or nothing.
 std::string nearest(const std::string& word, std::span<const std::string_view> names) {
@@ -28,9 +30,9 @@ const FilmCodec& choose_codec(const std::string& path, const FilmFormat& format,
     if (!options.codec.empty()) {
         if (std::find(names.begin(), names.end(), options.codec) != names.end())
             return *find_film_codec(options.codec);
-        refuse(fmt::format("'{}': {} is not written with the codec '{}'{}; it has {}", path,
-                           format.title, options.codec, nearest(options.codec, names),
-                           fmt::join(names, ", ")));
+        refuse_choice(fmt::format("'{}': {} is not written with the codec '{}'{}; it has {}", path,
+                                  format.title, options.codec, nearest(options.codec, names),
+                                  fmt::join(names, ", ")));
     }
     for (const std::string_view name : names)
         if (!options.transparent || find_film_codec(name)->has_alpha())
@@ -42,7 +44,7 @@ void require_alpha(const std::string& path, const FilmCodec& codec, std::string_
     std::vector<std::string_view> with_alpha;
     for (const FilmCodec& other : film_codecs())
         if (other.has_alpha()) with_alpha.push_back(other.name);
-    refuse(
+    refuse_choice(
         fmt::format("'{}': {} has no transparency; with 'background: transparent' films end in "
                     "{} (--codec {}), or frames go to PNGs, such as -o frames/",
                     path, pixels.empty() ? codec.title : pixels, film_extensions(true),
@@ -64,8 +66,9 @@ PixelFormat choose_pixels(const std::string& path, const FilmCodec& codec,
     const PixelFormatInfo* wanted = find_pixel_format(options.pixels);
     if (wanted == nullptr ||
         std::find(codec.pixels.begin(), codec.pixels.end(), wanted->format) == codec.pixels.end())
-        refuse(fmt::format("'{}': {} has no pixel format '{}'{}; it has {}", path, codec.title,
-                           options.pixels, nearest(options.pixels, names), fmt::join(names, ", ")));
+        refuse_choice(fmt::format("'{}': {} has no pixel format '{}'{}; it has {}", path,
+                                  codec.title, options.pixels, nearest(options.pixels, names),
+                                  fmt::join(names, ", ")));
     if (options.transparent && !wanted->alpha) require_alpha(path, codec, wanted->name);
     return wanted->format;
 }
@@ -73,7 +76,8 @@ PixelFormat choose_pixels(const std::string& path, const FilmCodec& codec,
 /// Options that mean nothing to the codec.
 void require_meaning(const std::string& path, const FilmCodec& codec, const FilmOptions& options) {
     const auto none = [&](const char* option, bool given) {
-        if (given) refuse(fmt::format("'{}': {} means nothing to {}", path, option, codec.title));
+        if (given)
+            refuse_choice(fmt::format("'{}': {} means nothing to {}", path, option, codec.title));
     };
     none("--quality", options.quality && codec.qualities.empty());
     none("--crf", options.crf && !codec.has_crf());
@@ -87,8 +91,8 @@ QualityStep quality_step(const FilmCodec& codec, const FilmOptions& options) {
     const std::string quality = options.quality.value_or("medium");
     const auto found = std::find(names.begin(), names.end(), quality);
     if (found == names.end())
-        refuse(fmt::format("unknown quality '{}'{}; there are {}", quality, nearest(quality, names),
-                           fmt::join(names, ", ")));
+        refuse_choice(fmt::format("unknown quality '{}'{}; there are {}", quality,
+                                  nearest(quality, names), fmt::join(names, ", ")));
     return codec.qualities[static_cast<std::size_t>(found - names.begin())];
 }
 
@@ -96,7 +100,7 @@ int choose_level(const FilmCodec& codec, const FilmOptions& options, int level) 
     if (!options.crf) return level;
     const int crf = *options.crf;
     if (crf >= codec.least_crf && crf <= codec.most_crf) return crf;
-    refuse(
+    refuse_choice(
         fmt::format("crf {} is not one of {}'s {} (best) ... {} (smallest){}", crf, codec.title,
                     codec.least_crf, codec.most_crf,
                     crf == 0 ? "; for a lossless film take .mkv with --codec ffv1, or .apng" : ""));
@@ -108,30 +112,31 @@ std::string choose_preset(const FilmCodec& codec, const FilmOptions& options,
     const auto& names = codec.presets;
     if (std::find(names.begin(), names.end(), *options.preset) != names.end())
         return *options.preset;
-    refuse(fmt::format("unknown preset '{}'{}; {} has {}, from fast to slow", *options.preset,
-                       nearest(*options.preset, names), codec.title, fmt::join(names, ", ")));
+    refuse_choice(fmt::format("unknown preset '{}'{}; {} has {}, from fast to slow",
+                              *options.preset, nearest(*options.preset, names), codec.title,
+                              fmt::join(names, ", ")));
 }
 
 void require_size(const FilmChoice& choice, const FilmOptions& options) {
     const PixelFormatInfo& pixels = pixel_format_info(choice.pixels);
     const int width = options.width_px, height = options.height_px;
     if (width < 1 || height < 1)
-        refuse(fmt::format("a film cannot have {}x{} pixels", width, height));
+        refuse_choice(fmt::format("a film cannot have {}x{} pixels", width, height));
     if (pixels.halved_chroma && (width % 2 != 0 || height % 2 != 0))
-        refuse(
+        refuse_choice(
             fmt::format("a film of {}x{} pixels cannot be encoded as {}: width and height must "
                         "be even",
                         width, height, pixels.name));
     constexpr int kLeastAv1 = 64;  // of SVT-AV1
     if (choice.codec->name == "av1" && (width < kLeastAv1 || height < kLeastAv1))
-        refuse(fmt::format("AV1 has at least {0} pixels across and down, not {1}x{2}", kLeastAv1,
-                           width, height));
+        refuse_choice(fmt::format("AV1 has at least {0} pixels across and down, not {1}x{2}",
+                                  kLeastAv1, width, height));
     // The size fields of the formats themselves (GIF89a, 18; WebP container, VP8X less one).
     constexpr int kMostGif = 65535, kMostWebp = 16383;
     const int most = choice.codec->name == "webp" ? kMostWebp : kMostGif;
     if (width > most || height > most)
-        refuse(fmt::format("{} has at most {} pixels across and down, not {}x{}",
-                           choice.codec->title, most, width, height));
+        refuse_choice(fmt::format("{} has at most {} pixels across and down, not {}x{}",
+                                  choice.codec->title, most, width, height));
 }
 
 }  // namespace
@@ -146,10 +151,10 @@ FilmChoice choose_film(const std::string& path, const FilmOptions& options) {
                                choose_preset(codec, options, step.preset)};
     require_size(choice, options);
     if (options.fps_numerator <= 0 || options.fps_denominator <= 0)
-        refuse(fmt::format("a film cannot have {}/{} frames a second", options.fps_numerator,
-                           options.fps_denominator));
+        refuse_choice(fmt::format("a film cannot have {}/{} frames a second", options.fps_numerator,
+                                  options.fps_denominator));
     if (options.threads < 0)
-        refuse(fmt::format("the encoder cannot have {} threads", options.threads));
+        refuse_choice(fmt::format("the encoder cannot have {} threads", options.threads));
     require_time_stamps(format, path, options.fps_numerator, options.fps_denominator);
     return choice;
 }

@@ -20,7 +20,9 @@ namespace carom {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& text) { throw Failure(FailureKind::kInput, text); }
+[[noreturn]] void refuse_to_join(const std::string& text) {
+    throw Failure(FailureKind::kInput, text);
+}
 
 /// A part, as its file describes it.
 struct Part {
@@ -48,7 +50,7 @@ void require_container(const FilmInput& input, const FilmFormat& format,
                        const std::string& output) {
     const char* family = family_of(format);
     if (std::strncmp(input.context().iformat->name, family, std::strlen(family)) == 0) return;
-    refuse(
+    refuse_to_join(
         fmt::format("'{}' is {}, which cannot be put into '{}' as it is: parts are joined into "
                     "the container that they have",
                     input.path(), input.context().iformat->long_name, output));
@@ -58,11 +60,11 @@ FilmPart part_of(const FilmInput& input) {
     const std::string comment = input.text("comment");
     if (const auto part = read_film_part(comment)) return *part;
     if (comment.starts_with("carom "))
-        refuse(
+        refuse_to_join(
             fmt::format("'{}' is no part of a film that can be joined: it says '{}'; parts are "
                         "made with --chunk I/N, or with --frames A-B",
                         input.path(), comment));
-    refuse(
+    refuse_to_join(
         fmt::format("'{}' does not say which frames of which film it holds: parts are made by "
                     "`carom render` with --chunk I/N, or with --frames A-B",
                     input.path()));
@@ -73,7 +75,8 @@ void describe_sound(Part& part, const FilmInput& input, const LibavMessages& mes
     part.sound_codec = sound_codec_of(part.path, part.said);
     if (part.sound_codec == nullptr) return;
     if (input.sound() == nullptr)
-        refuse(fmt::format("'{}' is not what it says it is: its sound is missing", part.path));
+        refuse_to_join(
+            fmt::format("'{}' is not what it says it is: its sound is missing", part.path));
     part.sound.reset(allocated(libav().avcodec_parameters_alloc()));
     input.check(libav().avcodec_parameters_copy(part.sound.get(), input.sound()->codecpar),
                 messages);
@@ -89,7 +92,7 @@ Part describe(const std::string& path, const FilmFormat& format, const std::stri
     const std::string codec = part.said.settings.substr(0, part.said.settings.find(' '));
     const auto codecs = format.codec_names();
     if (std::find(codecs.begin(), codecs.end(), codec) == codecs.end())
-        refuse(
+        refuse_to_join(
             fmt::format("'{}' is coded as {}, which {} does not hold", path, codec, format.title));
     const LibavMessages messages;
     part.parameters.reset(allocated(libav().avcodec_parameters_alloc()));
@@ -113,7 +116,8 @@ bool have_one_header(const AVCodecParameters& a, const AVCodecParameters& b) {
 /// Refuses a part that is not of the same film as the first one.
 void require_alike(const Part& a, const Part& b) {
     const auto differ = [&](const std::string& what, const auto& of_a, const auto& of_b) {
-        refuse(fmt::format("'{}' and '{}' {}: {} and {}", a.path, b.path, what, of_a, of_b));
+        refuse_to_join(
+            fmt::format("'{}' and '{}' {}: {} and {}", a.path, b.path, what, of_a, of_b));
     };
     const AVCodecParameters &pa = *a.parameters, &pb = *b.parameters;
     if (pa.width != pb.width || pa.height != pb.height)
@@ -137,22 +141,22 @@ void require_alike(const Part& a, const Part& b) {
                fmt::format("{} frames", b.said.count));
     const bool one_sound = !a.sound || have_one_header(*a.sound, *b.sound);
     if (!have_one_header(pa, pb) || a.alpha_beside != b.alpha_beside || !one_sound)
-        refuse(fmt::format("'{}' and '{}' come from different encoders: their headers differ",
-                           a.path, b.path));
+        refuse_to_join(fmt::format(
+            "'{}' and '{}' come from different encoders: their headers differ", a.path, b.path));
 }
 
 /// Refuses frames that no part holds, or two; `parts` are in order.
 void require_every_frame_once(const std::vector<Part>& parts) {
     std::int64_t next = 0;
     const auto missing = [&](std::int64_t end) {
-        refuse(fmt::format("frames {} to {} of the film's {} are in none of the parts", next,
-                           end - 1, parts.front().said.count));
+        refuse_to_join(fmt::format("frames {} to {} of the film's {} are in none of the parts",
+                                   next, end - 1, parts.front().said.count));
     };
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const FilmPart& part = parts[i].said;
         if (part.first > next) missing(part.first);
         if (part.first < next)
-            refuse(
+            refuse_to_join(
                 fmt::format("'{}' (frames {} to {}) and '{}' (frames {} to {}) hold the same "
                             "frames",
                             parts[i - 1].path, parts[i - 1].said.first, parts[i - 1].said.last,
@@ -178,7 +182,7 @@ class PartReader {
         if (!input_.read(packet, has_sound_)) return false;
         if (input_.is_sound(packet)) return true;
         if (packet.pts == AV_NOPTS_VALUE)
-            refuse(fmt::format("'{}' has a frame without a time", input_.path()));
+            refuse_to_join(fmt::format("'{}' has a frame without a time", input_.path()));
         // The first to be decoded is the first to be seen: nothing stands before it.
         if (!begun_) first_pts_ = packet.pts;
         begun_ = true;
@@ -210,8 +214,8 @@ std::int64_t examined_delay(const Part& part, const JoinHooks& hooks) {
     if (sound) sound->begin(part.said);
     std::int64_t packets = 0, delay = 0, frame = 0;
     const auto damaged = [&](const std::string& why) {
-        refuse(fmt::format("'{}' is not what it says it is, frames {} to {}: {}", part.path,
-                           part.said.first, part.said.last, why));
+        refuse_to_join(fmt::format("'{}' is not what it says it is, frames {} to {}: {}", part.path,
+                                   part.said.first, part.said.last, why));
     };
     while (reader.read(*packet, frame)) {
         if (hooks.check) hooks.check();
@@ -288,7 +292,7 @@ void require_joinable(const std::string& output) {
     for (const FilmFormat& other : film_formats())
         if (can_join(other))
             names += fmt::format("{}.{}", names.empty() ? "" : ", ", other.extension);
-    refuse(
+    refuse_to_join(
         fmt::format("'{}': parts of {} cannot be joined without encoding them again; films in "
                     "{} can, and PNG frames need no joining",
                     output, format.title, names));
@@ -304,7 +308,7 @@ std::int64_t join_films(const std::vector<std::string>& paths, const std::string
         parts.push_back(describe(path, format, output));
         require_alike(parts.front(), parts.back());
     }
-    if (parts.empty()) refuse("no films to join");
+    if (parts.empty()) refuse_to_join("no films to join");
     std::sort(parts.begin(), parts.end(),
               [](const Part& a, const Part& b) { return a.said.first < b.said.first; });
     require_every_frame_once(parts);

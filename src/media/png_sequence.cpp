@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNamesInFolder = "frame_%05d.png";
 
-[[noreturn]] void refuse(const std::string& pattern, const std::string& why) {
+[[noreturn]] void refuse_frames(const std::string& pattern, const std::string& why) {
     throw Failure(FailureKind::kInput,
                   fmt::format("cannot name frames after '{}': {}", pattern, why));
 }
@@ -46,12 +46,14 @@ void read_number_format(const std::string& text, std::size_t& i, Pattern& patter
     pattern.zeros = i < text.size() && text[i] == '0';
     while (i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0) {
         pattern.digits = pattern.digits * 10 + (text[i++] - '0');
-        if (pattern.digits > kMostDigits) refuse(text, "the number has too many digits");
+        if (pattern.digits > kMostDigits) refuse_frames(text, "the number has too many digits");
     }
     if (i >= text.size() || text[i] != 'd')
-        refuse(text, "after '%' only a number format like %05d can stand (a percent sign is %%)");
+        refuse_frames(text,
+                      "after '%' only a number format like %05d can stand (a percent sign is %%)");
     if (pattern.digits > 0 && !pattern.zeros)
-        refuse(text, fmt::format("write %0{}d, so that the names hold no spaces", pattern.digits));
+        refuse_frames(text,
+                      fmt::format("write %0{}d, so that the names hold no spaces", pattern.digits));
     ++i;
 }
 
@@ -68,7 +70,7 @@ Pattern parse_pattern(const std::string& text, bool& found) {
             part += '%';
             ++i;
         } else {
-            if (found) refuse(text, "the frame's number stands in it twice");
+            if (found) refuse_frames(text, "the frame's number stands in it twice");
             read_number_format(text, i, pattern);
             found = true;
         }
@@ -82,15 +84,16 @@ Pattern sequence_pattern(const std::string& text) {
     Pattern pattern = parse_pattern(text, found);
     if (!found) {
         const std::string folder = pattern.before;
-        if (folder.empty()) refuse(text, "the name is empty");
+        if (folder.empty()) refuse_frames(text, "the name is empty");
         pattern = parse_pattern(kNamesInFolder, found);
         pattern.before = (fs::path(folder) / pattern.before).string();
     } else if (pattern.after.find('/') != std::string::npos) {
-        refuse(text, "the number must stand in the file's name, not in a folder's");
+        refuse_frames(text, "the number must stand in the file's name, not in a folder's");
     } else if (!pattern.after.ends_with(".png")) {
-        refuse(text,
-               "frames are PNGs: the name must end in .png, such as frame_%05d.png (and %% is "
-               "a percent sign)");
+        refuse_frames(
+            text,
+            "frames are PNGs: the name must end in .png, such as frame_%05d.png (and %% is "
+            "a percent sign)");
     }
     return pattern;
 }

@@ -85,7 +85,7 @@ std::string contents(const std::string& path) {
     return data;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+[[noreturn]] void refuse_wav(const std::string& path, const std::string& what) {
     throw Failure(FailureKind::kInput, fmt::format("{}: {}", readable(path), what));
 }
 
@@ -94,13 +94,14 @@ void require_known(const std::string& path, const Format& format) {
                                                         format.bits == 24 || format.bits == 32);
     const bool floats = format.code == kFloats && format.bits == 32;
     if (!whole && !floats)
-        refuse(path, fmt::format("a WAV file of format {} with {} bits; whole numbers of 8, 16, 24 "
-                                 "or 32 bits and floats of 32 are read",
-                                 format.code, format.bits));
+        refuse_wav(path,
+                   fmt::format("a WAV file of format {} with {} bits; whole numbers of 8, 16, 24 "
+                               "or 32 bits and floats of 32 are read",
+                               format.code, format.bits));
     if (format.channels == 0 || format.channels > 64 || format.rate < 1000 ||
         format.rate > 1'000'000)
-        refuse(path, fmt::format("{} channels at {} samples a second: no sound has that",
-                                 format.channels, format.rate));
+        refuse_wav(path, fmt::format("{} channels at {} samples a second: no sound has that",
+                                     format.channels, format.rate));
 }
 
 }  // namespace
@@ -141,7 +142,8 @@ SoundSamples read_wav(const std::string& path) {
     const std::string data = contents(path);
     const Bytes bytes(data);
     if (bytes.text(0, 4) != "RIFF" || bytes.text(8, 4) != "WAVE")
-        refuse(path, "this is no WAV file; `ffmpeg -i FILE sound.wav` makes one of other sound");
+        refuse_wav(path,
+                   "this is no WAV file; `ffmpeg -i FILE sound.wav` makes one of other sound");
     Format format;
     for (std::size_t at = 12; bytes.has(at, 8);) {
         const std::string_view name = bytes.text(at, 4);
@@ -152,7 +154,8 @@ SoundSamples read_wav(const std::string& path) {
             if (format.code == kExtensible && size >= 26) format.code = bytes.number(body + 24, 2);
             require_known(path, format);
         } else if (name == "data") {
-            if (format.rate == 0) refuse(path, "a WAV file whose samples come before their format");
+            if (format.rate == 0)
+                refuse_wav(path, "a WAV file whose samples come before their format");
             // A recording that was cut off has fewer than it says.
             const std::size_t there = std::min(size, bytes.size() - body);
             const std::size_t width = format.bits / 8, frame = width * format.channels;
@@ -168,7 +171,7 @@ SoundSamples read_wav(const std::string& path) {
         }
         at = body + size + size % 2;
     }
-    refuse(path, "a WAV file without samples");
+    refuse_wav(path, "a WAV file without samples");
 }
 
 }  // namespace carom

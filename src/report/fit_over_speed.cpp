@@ -56,8 +56,8 @@ Interval95 interval(double value, double uncertainty, double covered) {
 
 void require_enough(const SpeedFit& fit, const FitOptions& options) {
     // A tenth of a height apart: closer, and the law hangs on the readings' last digits.
-    constexpr double kApart = 1.05;
-    if (!(fit.highest > kApart * fit.lowest))
+    constexpr double kApartRatio = 1.05;
+    if (!(fit.highest > kApartRatio * fit.lowest))
         refuse_fit(
             fmt::format("--over-speed: the impacts have speeds of {:.4g} to {:.4g} m/s, which are "
                         "one: drop from heights that differ, at best by a factor of 4",

@@ -74,13 +74,13 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
 }
 
 enum class Kind { kDrop, kRebound, kInterval };
-struct Column {
+struct MeasuredColumn {
     Kind kind;
     Unit unit;
 };
 
 /// "drop [cm]", "drop (cm)" or "drop_cm".
-Column column_of(std::string_view heading, const std::string& where) {
+MeasuredColumn column_of(std::string_view heading, const std::string& where) {
     std::string text(heading);
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -159,13 +159,13 @@ class CsvReader {
     std::string where() const { return fmt::format("{}:{}", path_, number_); }
     bool has(Kind kind) const {
         return std::any_of(columns_.begin(), columns_.end(),
-                           [&](const Column& c) { return c.kind == kind; });
+                           [&](const MeasuredColumn& c) { return c.kind == kind; });
     }
 
     void header(const std::string& line) {
         separator_ = separator_of(line);
         for (const std::string_view cell : cells_of(line, separator_)) {
-            const Column column = column_of(cell, where());
+            const MeasuredColumn column = column_of(cell, where());
             if (has(column.kind)) fail(where(), fmt::format("the column '{}' stands twice", cell));
             columns_.push_back(column);
         }
@@ -194,7 +194,7 @@ class CsvReader {
     std::string path_;
     int number_ = 0;
     char separator_ = ',';
-    std::vector<Column> columns_;
+    std::vector<MeasuredColumn> columns_;
     Measurements result_;
 };
 

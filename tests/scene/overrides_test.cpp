@@ -5,7 +5,7 @@
 namespace carom {
 namespace {
 
-const char* const kScene =
+const char* const kOverridden =
     "carom: 1\n"
     "materials: {rubber: {restitution: 0.5}, steel: {}}\n"
     "pairs: [{between: [rubber, steel], restitution: 0.8}]\n"
@@ -19,13 +19,13 @@ const char* const kScene =
 Scene with(const std::vector<std::string>& arguments) {
     std::vector<Override> overrides;
     for (const std::string& argument : arguments) overrides.push_back(parse_override(argument));
-    return scene_of(kScene, overrides);
+    return scene_of(kOverridden, overrides);
 }
 
 std::string wrong(const std::vector<std::string>& arguments) {
     std::vector<Override> overrides;
     for (const std::string& argument : arguments) overrides.push_back(parse_override(argument));
-    return errors_of(kScene, overrides);
+    return errors_of(kOverridden, overrides);
 }
 
 TEST(Overrides, GoByKeysNamesAndIndices) {

@@ -21,7 +21,7 @@ Contact touch(int ball, int other, bool surface) {
 }
 
 TEST(Islands, JoinByBallsNotBySurfaces) {
-    Islands islands(6);
+    ContactIslands islands(6);
     // 0 and 1 on one floor, each alone; 2 touches 3, which touches the floor; 4 touches two walls.
     std::vector<Contact> contacts = {touch(0, 0, true), touch(1, 0, true), touch(2, 3, false),
                                      touch(3, 0, true), touch(4, 1, true), touch(4, 2, true)};
@@ -38,7 +38,7 @@ TEST(Islands, JoinByBallsNotBySurfaces) {
 
 TEST(Islands, LongChainIsOne) {
     constexpr int kBalls = 1000;
-    Islands islands(kBalls);
+    ContactIslands islands(kBalls);
     std::vector<Contact> contacts;
     for (int i = kBalls - 2; i >= 0; --i) contacts.push_back(touch(i, i + 1, false));
     islands.mark_lonely(contacts);

@@ -13,11 +13,11 @@
 namespace carom::testing {
 namespace {
 
-constexpr double kG = 9.81;  // m/s^2
+constexpr double kFlightG = 9.81;  // m/s^2
 
 /// A ball in air of 1.225 kg/m^3 without buoyancy, on a floor of this coefficient.
 Scene in_air(double mass, double radius, double drag, double restitution) {
-    Scene scene = exact_scene(restitution, 0, kG);
+    Scene scene = exact_scene(restitution, 0, kFlightG);
     scene.air = Air{};
     scene.air->buoyancy = false;
     add_plane(scene, Vec3::UnitZ(), 0);
@@ -28,7 +28,7 @@ Scene in_air(double mass, double radius, double drag, double restitution) {
 }
 
 double terminal_speed(double mass, double radius, double drag) {
-    return std::sqrt(2 * mass * kG / (1.225 * std::numbers::pi * radius * radius * drag));
+    return std::sqrt(2 * mass * kFlightG / (1.225 * std::numbers::pi * radius * radius * drag));
 }
 
 struct Bounce {
@@ -39,7 +39,7 @@ struct Bounce {
 /// q ln(1 + (v/V)^2), time V/g arctan(v/V); q = V^2/2g.
 std::vector<Bounce> closed_form(double terminal, double drop, double e, int count) {
     using Number = long double;
-    const Number v = terminal, g = kG, q = v * v / (2 * g);
+    const Number v = terminal, g = kFlightG, q = v * v / (2 * g);
     Number height = drop, time = 0;
     std::vector<Bounce> bounces;
     for (int i = 0; i < count; ++i) {
@@ -172,7 +172,7 @@ TEST(Flight, BuoyancyIsLessGravity) {
     const double part = 1.225 * 4 / 3 * std::numbers::pi * std::pow(ball.radius, 3) / ball.mass;
     EXPECT_NEAR(part, 0.0033, 1e-4);
     const BallState s = run(scene, 1.5).motion.balls[0].at(1.5);
-    EXPECT_NEAR(s.position.z(), 8 * 1.5 - 0.5 * kG * (1 - part) * 1.5 * 1.5, 1e-13);
+    EXPECT_NEAR(s.position.z(), 8 * 1.5 - 0.5 * kFlightG * (1 - part) * 1.5 * 1.5, 1e-13);
 }
 
 /// exp(-t / T), and the angle that it makes.
@@ -210,7 +210,7 @@ TEST(Flight, BouncesComeToRest) {
     scene.balls[0].velocity = Vec3(0.2, 0, 0);
     const SimulationResult r = run(scene, 6);
     double least = std::numeric_limits<double>::infinity();
-    const double pull = kG * (1 - buoyant_part(*scene.air, 0.02, 0.0027));
+    const double pull = kFlightG * (1 - buoyant_part(*scene.air, 0.02, 0.0027));
     for (int k = 0; k <= 6000; ++k) {
         const BallState s = r.motion.balls[0].at(0.001 * k);
         const double energy = 0.5 * s.velocity.squaredNorm() + pull * s.position.z();
@@ -233,7 +233,7 @@ double drag_per_speed(const Ball& ball, double drag) {
 /// On a smooth floor v = v0 / (1 + K v0 t); a ball that rolls has 1 + k times the inertia.
 TEST(AirOnTheFloor, SlidingAndRollingSlowDown) {
     for (const double friction : {0.0, 0.5}) {
-        Scene scene = exact_scene(0.5, friction, kG);
+        Scene scene = exact_scene(0.5, friction, kFlightG);
         scene.air = Air{.buoyancy = false};
         add_plane(scene);
         Ball& ball = add_ball(scene, Vec3(0, 0, 0.1), Vec3(4, 0, 0), 0.1);
@@ -253,7 +253,7 @@ TEST(AirOnTheFloor, SlidingAndRollingSlowDown) {
 
 /// Wind sets a ball on a smooth floor in motion: its speed through the air falls as above.
 TEST(AirOnTheFloor, WindDrivesABallAtRest) {
-    Scene scene = exact_scene(0.5, 0, kG);
+    Scene scene = exact_scene(0.5, 0, kFlightG);
     scene.air = Air{.wind = Vec3(6, 0, 0), .buoyancy = false};
     add_plane(scene);
     Ball& ball = add_ball(scene, Vec3(0, 0, 0.1), Vec3::Zero(), 0.1);
@@ -266,7 +266,7 @@ TEST(AirOnTheFloor, WindDrivesABallAtRest) {
 
 /// Two smooth planes hold the ball: both contacts are integrated together.
 TEST(AirOnTheFloor, SlidesAlongAGroove) {
-    Scene scene = exact_scene(0.5, 0, kG);
+    Scene scene = exact_scene(0.5, 0, kFlightG);
     scene.air = Air{.buoyancy = false};
     const double s45 = std::sqrt(0.5);
     add_plane(scene, Vec3(0, s45, s45), 0);
@@ -337,7 +337,7 @@ TEST(Flight, FixedStepsConverge) {
 
 /// A ball that spins beside a wall without moving: lift presses it on only once it falls.
 TEST(Flight, LiftPressesWhatTouchesWithoutSpeed) {
-    Scene scene = exact_scene(0.3, 0, kG);
+    Scene scene = exact_scene(0.3, 0, kFlightG);
     scene.air = Air{.density = 9};
     add_plane(scene, Vec3::UnitX(), 0);
     Ball& ball = add_ball(scene, Vec3(0.03, 0, 0), Vec3::Zero(), 0.03);

@@ -39,14 +39,14 @@ SolverContact between(int a, int b, const std::vector<ImpactBody>& bodies, doubl
     return c;
 }
 
-class SingleContact : public ::testing::TestWithParam<SingleContacts> {};
-INSTANTIATE_TEST_SUITE_P(Solvers, SingleContact,
+class LoneContact : public ::testing::TestWithParam<SingleContacts> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, LoneContact,
                          ::testing::Values(SingleContacts::kClosedForm, SingleContacts::kOde),
                          [](const auto& solver) {
                              return solver.param == SingleContacts::kOde ? "ode" : "closed_form";
                          });
 
-TEST_P(SingleContact, FrictionAtEveryAzimuth) {
+TEST_P(LoneContact, FrictionAtEveryAzimuth) {
     ImpactSolver solver(GetParam());
     double worst = 0;
     for (const double k : {0.4, 2.0 / 3})

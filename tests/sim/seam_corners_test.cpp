@@ -9,7 +9,7 @@ namespace {
 constexpr double kCornerG = kGravity, kCornerR = 0.05;
 
 /// As of other seams, m and m/s.
-constexpr double kSeam = 1e-11;
+constexpr double kCornerSeam = 1e-11;
 
 /// A floor turned about z by `angle` [rad], in two rows that meet in the line through the origin,
 /// or in one piece.
@@ -41,9 +41,9 @@ TEST(SeamCorners, ABallDroppedOnASeamComesToRestThere) {
                 add_ball(scene, start, Vec3(0, 0, -0.5), kCornerR);
                 const Motion motion = simulate(scene).motion;
                 const BallState s = motion.balls[0].at(1.5);
-                EXPECT_LE((s.position - Vec3(start.x(), start.y(), kCornerR)).norm(), kSeam)
+                EXPECT_LE((s.position - Vec3(start.x(), start.y(), kCornerR)).norm(), kCornerSeam)
                     << angle;
-                EXPECT_LE(s.velocity.norm() + kCornerR * s.spin.norm(), kSeam) << angle;
+                EXPECT_LE(s.velocity.norm() + kCornerR * s.spin.norm(), kCornerSeam) << angle;
                 only(motion, EventKind::kRest);
             }
 }
@@ -68,8 +68,10 @@ TEST(SeamCorners, ABallDriftsAwayFromTheSeamItGoesAlong) {
             const BallState one = motions[0].balls[0].at(0.35),
                             parts = motions[1].balls[0].at(0.35);
             EXPECT_GT(std::abs((turn.conjugate() * one.position).y()), 1e-5);
-            EXPECT_LE((one.position - parts.position).norm(), kSeam) << angle << " " << across;
-            EXPECT_LE((one.velocity - parts.velocity).norm(), kSeam) << angle << " " << across;
+            EXPECT_LE((one.position - parts.position).norm(), kCornerSeam)
+                << angle << " " << across;
+            EXPECT_LE((one.velocity - parts.velocity).norm(), kCornerSeam)
+                << angle << " " << across;
             EXPECT_EQ(motions[0].events.size(), motions[1].events.size()) << angle;
         }
 }

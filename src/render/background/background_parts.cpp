@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-constexpr int kTilePx = ScreenTiles::kTilePx;
+constexpr int kPartPx = ScreenTiles::kTilePx;
 
 /// Of the lists of a rectangle (SurfaceTiles): each has its first entry and the ends of its kinds.
 unsigned bodies_in(const float* rectangle) {
@@ -21,10 +21,10 @@ unsigned bodies_in(const float* rectangle) {
 }
 
 /// A rectangle of tiles of one kind; pixels.
-struct Run {
+struct PartRun {
     int left, right, top, bottom;
     PartKind kind;
-    bool continues(const Run& above) const {
+    bool continues(const PartRun& above) const {
         return above.bottom == top && above.left == left && above.right == right &&
                !(above.kind < kind) && !(kind < above.kind);
     }
@@ -42,7 +42,7 @@ class Divider {
     void divide(const float* rectangle, BackgroundParts& parts);
 
   private:
-    PartView seen_in(const Run& tile) const;
+    PartView seen_in(const PartRun& tile) const;
 
     const TileMask* detailed_;
     double pixel_;
@@ -52,7 +52,7 @@ class Divider {
 };
 
 /// By the rays through the corners: which side of the horizon a ray lies on is linear in the pixel.
-PartView Divider::seen_in(const Run& tile) const {
+PartView Divider::seen_in(const PartRun& tile) const {
     if (planes_ == 0) return PartView::kSky;
     constexpr double kRounding = 1e-4;  // of a unit normal and a ray; the shader's limit is 1e-7
     bool ground = true, sky = true;
@@ -69,29 +69,29 @@ PartView Divider::seen_in(const Run& tile) const {
 
 void Divider::divide(const float* rectangle, BackgroundParts& parts) {
     const auto edge = [&](int i) { return static_cast<int>(rectangle[i]); };
-    const auto close = [&](const Run& run) {
+    const auto close = [&](const PartRun& run) {
         std::vector<float>& list = parts[run.kind];
         for (const int px : {run.left, run.top, run.right, run.bottom})
             list.push_back(static_cast<float>(px));
         list.insert(list.end(), rectangle + 4, rectangle + SurfaceTiles::kRectangleFloats);
     };
-    std::vector<Run> open;
-    for (int top = edge(1); top < edge(3); top += kTilePx) {
-        std::vector<Run> runs;
-        for (int left = edge(0); left < edge(2); left += kTilePx) {
-            Run tile{
-                left, std::min(left + kTilePx, edge(2)), top, std::min(top + kTilePx, edge(3)), {}};
+    std::vector<PartRun> open;
+    for (int top = edge(1); top < edge(3); top += kPartPx) {
+        std::vector<PartRun> runs;
+        for (int left = edge(0); left < edge(2); left += kPartPx) {
+            PartRun tile{
+                left, std::min(left + kPartPx, edge(2)), top, std::min(top + kPartPx, edge(3)), {}};
             tile.kind.seen = seen_in(tile);
             tile.kind.detailed =
-                detailed_ == nullptr || detailed_->has_tile(left / kTilePx, top / kTilePx);
+                detailed_ == nullptr || detailed_->has_tile(left / kPartPx, top / kPartPx);
             if (!runs.empty() && !(runs.back().kind < tile.kind) && !(tile.kind < runs.back().kind))
                 runs.back().right = tile.right;
             else
                 runs.push_back(tile);
         }
-        for (const Run& above : open) {
-            const auto below = std::find_if(runs.begin(), runs.end(),
-                                            [&](const Run& run) { return run.continues(above); });
+        for (const PartRun& above : open) {
+            const auto below = std::find_if(
+                runs.begin(), runs.end(), [&](const PartRun& run) { return run.continues(above); });
             if (below != runs.end())
                 below->top = above.top;
             else
@@ -99,7 +99,7 @@ void Divider::divide(const float* rectangle, BackgroundParts& parts) {
         }
         open = std::move(runs);
     }
-    for (const Run& run : open) close(run);
+    for (const PartRun& run : open) close(run);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 /// As surface_tiles.cpp: samples lie half a pixel from a pixel's middle, edges a pixel from there.
-constexpr double kAroundPx = 2.5;
+constexpr double kAroundPlanePx = 2.5;
 
 /// How near a plane is along the ray of a pixel, the larger the nearer, and linear in the pixel's
 /// place: of n . p = w, seen along (x, y, 1) from the eye, 1 / depth = n . (x, y, 1) / w; along
@@ -85,7 +85,7 @@ PlaneTiles sort_planes_into_tiles(const SurfaceTable& table, const View& view,
 
     constexpr double kTilePx = ScreenTiles::kTilePx;
     const Vec2 middle_px = 0.5 * Vec2(view.width_px(), view.height_px());
-    const Vec2 half_px = Vec2::Constant(0.5 * kTilePx + kAroundPx);
+    const Vec2 half_px = Vec2::Constant(0.5 * kTilePx + kAroundPlanePx);
     constexpr double kSky = 0;  // nearness of what no perspective ray meets
     std::vector<TileRange> ranges(count);
     tiles.seen.resize(grid.count());

@@ -4,7 +4,7 @@ namespace carom {
 
 namespace {
 
-Egl load() {
+Egl load_egl() {
     const SharedLibrary library("libEGL.so.1", "pictures need EGL (package libegl1)");
     Egl table;
     CAROM_EGL_FUNCTIONS(CAROM_FIND)
@@ -15,7 +15,7 @@ Egl load() {
 }  // namespace
 
 const Egl& egl() {
-    static const Egl table = load();
+    static const Egl table = load_egl();
     return table;
 }
 

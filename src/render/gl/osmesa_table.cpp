@@ -4,7 +4,7 @@ namespace carom {
 
 namespace {
 
-OsMesa load() {
+OsMesa load_osmesa() {
     // As its interface is numbered since Mesa 7.
     const SharedLibrary library("libOSMesa.so.8", "pictures need OSMesa (package libosmesa6)");
     OsMesa table;
@@ -15,7 +15,7 @@ OsMesa load() {
 }  // namespace
 
 const OsMesa& osmesa() {
-    static const OsMesa table = load();
+    static const OsMesa table = load_osmesa();
     return table;
 }
 

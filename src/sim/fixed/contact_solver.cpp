@@ -32,16 +32,16 @@ double largest_speed(const std::vector<Velocities>& balls) {
 
 }  // namespace
 
-// ---- Islands
+// ---- ContactIslands
 // -------------------------------------------------------------------------------------
 
-int Islands::root(int ball) {
+int ContactIslands::root(int ball) {
     auto parent = [this](int i) -> int& { return parent_[static_cast<std::size_t>(i)]; };
     while (parent(ball) != ball) ball = parent(ball) = parent(parent(ball));
     return ball;
 }
 
-void Islands::mark_lonely(std::vector<Contact>& contacts) {
+void ContactIslands::mark_lonely(std::vector<Contact>& contacts) {
     if (contacts.size() == 1) {
         contacts.front().alone = true;
         return;
@@ -58,7 +58,7 @@ void Islands::mark_lonely(std::vector<Contact>& contacts) {
 // ---- ContactSolver
 // -------------------------------------------------------------------------------
 
-ContactSolver::ContactSolver(OdeWorld& world, const ContactRules& rules)
+ContactSolver::ContactSolver(OdeWorld& world, const StepContactRules& rules)
     : world_(world),
       rules_(rules),
       erp_(dWorldGetERP(world.world())),

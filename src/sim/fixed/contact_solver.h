@@ -10,7 +10,7 @@
 namespace carom {
 
 /// How the contacts of a step are solved.
-struct ContactRules {
+struct StepContactRules {
     double step = 0;              ///< s
     Vec3 gravity = Vec3::Zero();  ///< m/s^2
     int iterations = 0;           ///< 0: dWorldStep, otherwise dWorldQuickStep
@@ -22,9 +22,9 @@ struct ContactRules {
 
 /// Sets `alone` of each contact: islands are balls joined by contacts; surfaces do not join.
 /// Union-find with path halving (Tarjan and van Leeuwen 1984).
-class Islands {
+class ContactIslands {
   public:
-    explicit Islands(int balls)
+    explicit ContactIslands(int balls)
         : parent_(static_cast<std::size_t>(balls)), contacts_(static_cast<std::size_t>(balls)) {}
     void mark_lonely(std::vector<Contact>& contacts);
 
@@ -48,7 +48,7 @@ class Islands {
 /// and others, SimBenchmark 2018, show the error of a fixed axis: up to sqrt 2.)
 class ContactSolver {
   public:
-    ContactSolver(OdeWorld& world, const ContactRules& rules);
+    ContactSolver(OdeWorld& world, const StepContactRules& rules);
 
     /// Fills what comes "from the velocities before the step" and adds the joints.
     void add_joints(std::vector<Contact>& contacts, const std::vector<Velocities>& before);
@@ -67,10 +67,10 @@ class ContactSolver {
     dContact joint_of(const Contact& contact) const;
 
     OdeWorld& world_;
-    ContactRules rules_;
+    StepContactRules rules_;
     double erp_;            ///< of the world, 1 per step
     double tie_speed_ = 0;  ///< closer than this to its target, a contact's speed is tied, m/s
-    Islands islands_;
+    ContactIslands islands_;
     std::vector<dJointFeedback> feedback_;  ///< one per contact of the step
 };
 

@@ -55,8 +55,8 @@ double largest_speed(const Scene& scene) {
 /// Position correction at most as fast as gravity undoes it in the next step. Without this limit it
 /// would add energy: an overlap d leaves at erp d / h, after an inelastic impact at v as fast as
 /// v / 5, and nothing takes that speed back.
-ContactRules contact_rules(const Simulation& s) {
-    ContactRules rules;
+StepContactRules contact_rules(const Simulation& s) {
+    StepContactRules rules;
     rules.step = s.step;
     rules.gravity = s.gravity;
     rules.iterations = s.solver == Solver::kQuick ? std::max(s.iterations, 1) : 0;

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 /// Part of gravity that tells a lift-off from rounding, for places no larger than their distances.
-constexpr double kLeastPush = 4e-15;
+constexpr double kLeastSinglePush = 4e-15;
 
 /// What pivoting can do to the spin about the normal, rad/s^2.
 double largest_pivot_rate(const SingleContact& c, const SingleContactForces& forces) {
@@ -106,7 +106,7 @@ int pivot_of(const SingleContact& c, ContactMode mode, ContactState& state, doub
 
 double lift_off_threshold(const SingleContact& c, const Vec3& x) {
     const double size = 1 + (x.cwiseAbs().maxCoeff() + c.origin.cwiseAbs().maxCoeff()) / c.distance;
-    return -kLeastPush * size * c.gravity.norm();
+    return -kLeastSinglePush * size * c.gravity.norm();
 }
 
 double grip_left(const SingleContact& c, const SingleContactForces& forces) {

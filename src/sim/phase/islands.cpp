@@ -15,7 +15,7 @@ namespace {
 /// time: in a pile one ball that rolls on does not keep the others awake.
 constexpr std::size_t kPile = 24;
 constexpr std::size_t kSmallPile = 4;
-constexpr double kRestlessSeconds = 1000 * kIslandStep;
+constexpr double kIslandRestlessSeconds = 1000 * kIslandStep;
 
 /// Normals closer than this [rad] are one, along which a resting ball may spin.
 constexpr double kSameNormal = 1e-9;
@@ -101,7 +101,7 @@ void Islands::step_island(const std::vector<int>& island, double now) {
 bool Islands::is_pile(const std::vector<int>& island) const {
     if (island.size() < kSmallPile) return false;
     return island.size() >= kPile || std::any_of(island.begin(), island.end(), [this](int ball) {
-               return links_.member(ball).stepped_seconds >= kRestlessSeconds;
+               return links_.member(ball).stepped_seconds >= kIslandRestlessSeconds;
            });
 }
 
