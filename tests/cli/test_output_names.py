@@ -84,8 +84,10 @@ class Kept(ProgramTest):
         for arguments, kept in (([], "a.partial-2.mkv"), (["-y"], "a.partial.mkv")):
             process = subprocess.Popen(
                 [CAROM, "render", str(self.scene), "-o", str(film), "--fps", "1000", "--set",
-                 "simulation.duration=500", "--progress", "plain", *arguments], stderr=subprocess.PIPE, text=True)
-            process.stderr.readline()
+                 "simulation.duration=20000", "--progress", "json", *arguments], stderr=subprocess.PIPE, text=True)
+            sign = {"stage": ""}
+            while sign["stage"] != "film" or sign["done"] < 20:
+                sign = json.loads(process.stderr.readline())
             process.send_signal(signal.SIGINT)
             _, errors = process.communicate(timeout=60)
             self.assertEqual(130, process.returncode, errors)
